@@ -1,0 +1,70 @@
+// "Did you mean": the known word nearest to a mistyped one.
+#include <algorithm>
+#include <limits>
+
+#include "base/diagnostics.h"
+
+namespace tyndall {
+
+namespace {
+
+constexpr std::size_t longest_word = 64;  // longer words are nobody's typing mistake
+constexpr std::size_t shortest_beginning =
+    3;  // letters of a word that may stand for its rest: 'pos', 'position'
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+// Insertions, deletions, replacements and swaps of neighbours that turn a into b ("optimal string
+// alignment").
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    std::swap(before_last, last);
+    std::swap(last, row);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
+  if (word.empty() || word.size() > longest_word) return {};
+  const std::string wanted = lower(word);
+  std::string_view best;
+  std::size_t best_distance = std::numeric_limits<std::size_t>::max();
+  for (const std::string_view candidate : candidates) {
+    if (candidate == word || candidate.size() > longest_word) continue;
+    const std::string known = lower(candidate);
+    const std::size_t most =
+        (std::max(wanted.size(), known.size()) + 1) / 3;  // one letter in three may be wrong
+    std::size_t distance = edit_distance(wanted, known);
+    if (distance > most) {
+      if (wanted.size() < shortest_beginning || !known.starts_with(wanted)) continue;
+      distance = longest_word + known.size();  // a beginning: only when nothing is alike
+    }
+    if (distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates) {
+  const std::string_view best = nearest(word, candidates);
+  return best.empty() ? std::string() : "did you mean '" + std::string(best) + "'?";
+}
+
+}  // namespace tyndall

@@ -1,0 +1,80 @@
+#include "base/sampler.h"
+
+namespace tyndall {
+
+namespace {
+
+using Matrix = std::array<std::uint32_t, 32>;
+
+// Direction numbers of one dimension from its primitive polynomial (degree s, coefficients a) and first m_i.
+// Joe and Kuo, "Constructing Sobol sequences with better two-dimensional projections" (2008), new-joe-kuo-6.
+constexpr Matrix direction_numbers(std::uint32_t s, std::uint32_t a, std::array<std::uint32_t, 3> m) {
+  Matrix v{};
+  for (std::uint32_t i = 0; i < 32; ++i) {
+    if (s == 0) {  // van der Corput
+      v[i] = 1u << (31 - i);
+    } else if (i < s) {
+      v[i] = m[i] << (31 - i);
+    } else {
+      v[i] = v[i - s] ^ (v[i - s] >> s);
+      for (std::uint32_t k = 1; k < s; ++k) v[i] ^= ((a >> (s - 1 - k)) & 1u) * v[i - k];
+    }
+  }
+  return v;
+}
+
+constexpr std::array<Matrix, sobol_dimensions> matrices = {
+    direction_numbers(0, 0, {}),        direction_numbers(1, 0, {1, 0, 0}),
+    direction_numbers(2, 1, {1, 3, 0}), direction_numbers(3, 1, {1, 3, 1}),
+    direction_numbers(3, 2, {1, 1, 1}),
+};
+
+// The same, a byte of the index at a time: entry [d][k][b] is what byte k of value b adds in dimension d.
+using ByteTables = std::array<std::array<std::array<std::uint32_t, 256>, 4>, sobol_dimensions>;
+constexpr ByteTables byte_tables() {
+  ByteTables tables{};
+  for (std::size_t d = 0; d < sobol_dimensions; ++d)
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::uint32_t b = 0; b < 256; ++b)
+        for (std::uint32_t bit = 0; bit < 8; ++bit)
+          if ((b >> bit) & 1u) tables[d][k][b] ^= matrices[d][8 * k + bit];
+  return tables;
+}
+constexpr ByteTables tables = byte_tables();
+
+constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+  x = (x << 16) | (x >> 16);
+  x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
+  x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
+  x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
+  return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
+}
+
+// A nested uniform (Owen) scrambling of the bits of x, most significant first; the hash is Vegdahl's revision
+// of the Laine-Karras permutation.
+constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
+  x = reverse_bits(x);
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1u;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return reverse_bits(x);
+}
+
+}  // namespace
+
+SobolPoint sobol_point(std::uint32_t index, std::uint64_t scramble, int dimensions) {
+  // Shuffling the index pads decisions against each other; an Owen scrambling of the index keeps every
+  // aligned power-of-two block of samples a net.
+  const std::uint32_t shuffled = owen_scramble(index, static_cast<std::uint32_t>(hash_bits(scramble)));
+  SobolPoint point{};
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimensions); ++d) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t k = 0; k < 4; ++k) bits ^= tables[d][k][(shuffled >> (8 * k)) & 255u];
+    point[d] = unit_float(owen_scramble(bits, static_cast<std::uint32_t>(hash_bits(scramble, d + 1))));
+  }
+  return point;
+}
+
+}  // namespace tyndall

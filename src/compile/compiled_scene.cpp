@@ -1,0 +1,135 @@
+#include "compile/compiled_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/overloaded.h"
+#include "compile/geometry.h"
+
+namespace tyndall::compile {
+
+namespace {
+
+Transform inverse_of(const Transform& t) {
+  const auto inverse = t.inverse();
+  CHECK(inverse.has_value());  // resolve refuses transforms that flatten space
+  return *inverse;
+}
+
+Vec3d camera_position(const scene::Camera& camera) {
+  return std::visit([](const auto& c) { return c.from; }, camera);
+}
+
+optics::Light moved(const optics::Light& light, const Vec3d& offset) {
+  optics::Light out = light;
+  std::visit(Overloaded{[&](optics::PointLight& l) { l.position += offset; },
+                        [&](optics::SphereLight& l) { l.center += offset; },
+                        [&](optics::SpotLight& l) { l.position += offset, l.to += offset; },
+                        [&](optics::QuadLight& l) { l.center += offset; },
+                        [&](optics::DiskLight& l) { l.center += offset; }, [](optics::DistantLight&) {},
+                        [](optics::EnvironmentLight&) {}},
+             out);
+  return out;
+}
+
+bool grey(const scene::RgbOutputs& outputs) { return outputs[0] == outputs[1] && outputs[1] == outputs[2]; }
+
+CompiledMedium compiled(const scene::Medium& medium) {
+  CompiledMedium out;
+  out.homogeneous = medium.homogeneous();
+  const vm::Program& program = medium.extinction;
+  const auto& outputs = medium.extinction_sigma_t;
+  if (std::all_of(outputs.begin(), outputs.end(),
+                  [&](auto k) { return program.constant(program.outputs[k]); })) {
+    Rgb sigma_t;
+    for (std::size_t c = 0; c < 3; ++c) sigma_t[c] = program.constants[program.outputs[outputs[c]]];
+    if (all_finite(sigma_t) && min_component(sigma_t) >= 0) out.constant_sigma_t = sigma_t;
+  }
+  out.may_be_negative.assign(medium.full.outputs.size(), false);
+  for (const scene::PhaseLobe& lobe : medium.phase)
+    for (const auto& parameter : lobe.parameters)
+      if (parameter.output) out.may_be_negative[*parameter.output] = true;
+  return out;
+}
+
+Features features_of(const CompiledScene& world) {
+  Features f;
+  f.volumes = !world.volumes.empty();
+  f.surfaces = !world.scene.shapes.empty() || !world.scene.instances.empty();
+  f.overlap = world.volumes.size() > 1;
+  for (const CompiledVolume& v : world.volumes) {
+    const scene::Medium& m = world.scene.media[v.medium];
+    f.heterogeneous |= !m.homogeneous();
+    f.chromatic |= !grey(m.sigma_t) || !grey(m.sigma_s) || (m.emission && !grey(*m.emission));
+    f.chromatic_extinction |= !grey(m.sigma_t);
+    f.medium_emission |= m.emission.has_value();
+  }
+  for (const optics::Light& light : world.lights) {
+    std::visit(Overloaded{[&](const optics::PointLight&) { f.delta_lights = true; },
+                          [&](const optics::SpotLight&) { f.delta_lights = true; },
+                          [&](const optics::DistantLight& l) {
+                            (l.angle.radians == 0 ? f.delta_lights : f.distant_discs) = true;
+                          },
+                          [&](const optics::EnvironmentLight&) { f.environment = true; },
+                          [&](const auto&) { f.area_lights = true; }},
+               light);
+  }
+  for (const scene::Material& m : world.scene.materials) f.surface_emission |= m.emission.has_value();
+  return f;
+}
+
+}  // namespace
+
+CompiledScene::CompiledScene() = default;
+CompiledScene::~CompiledScene() = default;
+CompiledScene::CompiledScene(CompiledScene&&) noexcept = default;
+
+std::optional<SurfaceHit> CompiledScene::closest_hit(const Ray& ray, RayKind kind) const {
+  return geometry->closest_hit(ray, kind);
+}
+bool CompiledScene::occluded(const Ray& ray, std::uint32_t target_light) const {
+  return geometry->occluded(ray, target_light);
+}
+void CompiledScene::volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const {
+  geometry->volume_intervals(ray, kind, out);
+}
+
+double surface_offset(const CompiledScene& world, const Vec3d& position) {
+  constexpr double ulps = 0x1p-40;
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, std::abs(position[axis]), std::abs(position[axis] + world.origin[axis])});
+  return ulps * largest;
+}
+
+CompiledScene compile(scene::Scene scene) {
+  CompiledScene world;
+  world.scene = std::move(scene);
+  world.origin = camera_position(world.scene.camera);
+  const Transform render_from_world = Transform::translate(-world.origin);
+
+  for (const scene::LightInstance& l : world.scene.lights)
+    world.lights.push_back(moved(l.light, -world.origin));
+
+  for (const scene::Medium& m : world.scene.media) world.media.push_back(compiled(m));
+  const std::vector<scene::Volume> volumes = scene::all_volumes(world.scene);
+  world.volumes.reserve(volumes.size());
+  for (const scene::Volume& v : volumes) {
+    CompiledVolume out;
+    out.medium = v.medium.index;
+    out.render_from_shape = render_from_world * v.world_from_shape;
+    out.shape_from_render = inverse_of(out.render_from_shape);
+    out.medium_from_render = inverse_of(render_from_world * v.world_from_medium);
+    out.step = v.step.value_or(world.scene.settings.step);
+    out.shape = v.shape;
+    out.visible = v.visible;
+    world.volumes.push_back(std::move(out));
+  }
+
+  world.features = features_of(world);
+  world.geometry = std::make_unique<Geometry>(world.scene, world.origin, world.lights, world.volumes);
+  return world;
+}
+
+}  // namespace tyndall::compile

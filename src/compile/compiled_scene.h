@@ -1,0 +1,108 @@
+// Scene to what the integrator asks: ray queries by Embree, light tables, bound programs, and the features
+// used.
+//
+// The world is recentred on the camera in double: everything below is in "render space" = world space -
+// origin.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/interval.h"
+#include "base/transform.h"
+#include "base/vec.h"
+#include "scene/scene.h"
+
+namespace tyndall::compile {
+
+inline constexpr std::uint32_t no_index = 0xffffffffu;
+
+struct Ray {
+  Vec3d origin, direction;  // render space; unit direction
+  double t_max = 0;
+};
+
+struct SurfaceHit {
+  double t = 0;
+  Vec3d position;                               // on the surface, from the shape's own equation
+  Vec3d normal;                                 // geometric, unit, outward (not turned to the ray)
+  Vec3d position_object, normal_object;         // the same in the shape's own space
+  Vec3d shading_normal, shading_normal_object;  // unit; smoothed over a mesh that has normals
+  Pair<double> uv;
+  std::uint32_t material = no_index;  // index of scene.materials, or no_index when a light was hit
+  std::uint32_t light = no_index;     // index of lights when it is a light's surface
+};
+
+// A ray's stay in one volume, clipped to the ray.
+struct VolumeInterval {
+  double t0 = 0, t1 = 0;
+  std::uint32_t volume = 0;
+};
+
+// Which rays a visibility query is for.
+enum class RayKind : std::uint8_t { camera, scattered, shadow };
+
+// What the scene needs (transport §9); `inspect --stage features` prints it.
+struct Features {
+  bool volumes = false, surfaces = false, overlap = false, heterogeneous = false, chromatic = false,
+       chromatic_extinction = false;
+  bool medium_emission = false, delta_lights = false, area_lights = false, distant_discs = false,
+       environment = false, surface_emission = false;
+};
+
+// What marching asks of a medium besides its programs.
+struct CompiledMedium {
+  bool homogeneous = false;             // one value for the whole ray: closed forms
+  std::optional<Rgb> constant_sigma_t;  // set when no program need run for transmittance [1/m]
+  std::vector<bool> may_be_negative;    // per output of the full program: the parameters of phase lobes
+};
+
+struct CompiledVolume {
+  std::uint32_t medium = 0;
+  Transform shape_from_render, render_from_shape;  // of the bounding shape
+  Transform medium_from_render;                    // render space to the medium's p
+  double step = 0;                                 // [m]
+  scene::Shape shape;
+  bool visible = true;
+};
+
+class Geometry;  // Embree, behind geometry.cpp
+
+class CompiledScene {
+ public:
+  ~CompiledScene();
+  CompiledScene(CompiledScene&&) noexcept;
+
+  scene::Scene scene;  // as given
+  Vec3d origin;        // world position of render space's zero
+  Features features;
+  std::vector<CompiledMedium> media;
+  std::vector<CompiledVolume> volumes;
+  std::vector<optics::Light> lights;  // scene.lights, moved to render space
+  std::unique_ptr<Geometry> geometry;
+
+  // The nearest surface (opaque shape or visible area light) in (t_min, ray.t_max), if any.
+  std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind) const;
+  // True when an opaque shape, or an area light other than `target_light`, blocks the segment (0, ray.t_max).
+  bool occluded(const Ray& ray, std::uint32_t target_light = no_index) const;
+  // Every volume interval that meets [0, t_max), appended to `out` (cleared first), in order of (t0, volume).
+  // Complete for rays that start inside volumes: no state is carried.
+  void volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const;
+
+ private:
+  friend CompiledScene compile(scene::Scene scene);
+  CompiledScene();
+};
+
+// How far a ray that leaves a surface must start off it, along the normal [m]: hits are exact to a few ulps
+// of the largest coordinate met on the way to them (render and world space), and 2^-40 is 8192 ulps of a
+// double.
+double surface_offset(const CompiledScene& world, const Vec3d& position);
+
+// Builds everything that rays need. The scene must be valid (resolve's errors were none).
+CompiledScene compile(scene::Scene scene);
+
+}  // namespace tyndall::compile

@@ -1,0 +1,112 @@
+#include "compile/geometry.h"
+
+#include <algorithm>
+
+#include "base/numerics.h"
+#include "base/overloaded.h"
+
+namespace tyndall::compile {
+
+namespace {
+
+// The surface of an area light, in the space of its numbers; nothing for lights without one.
+std::optional<scene::ShapeInstance> light_surface(const optics::Light& light) {
+  scene::ShapeInstance surface;
+  const bool has_surface = std::visit(Overloaded{[&](const optics::SphereLight& l) {
+                                                   surface.shape = scene::Sphere{l.center, l.radius};
+                                                   surface.visible = l.visible;
+                                                   return true;
+                                                 },
+                                                 [&](const optics::QuadLight& l) {
+                                                   surface.shape = scene::Quad{l.center, l.u, l.v};
+                                                   surface.visible = l.visible;
+                                                   return true;
+                                                 },
+                                                 [&](const optics::DiskLight& l) {
+                                                   surface.shape = scene::Disk{l.center, l.normal, l.radius};
+                                                   surface.visible = l.visible;
+                                                   return true;
+                                                 },
+                                                 [](const auto&) { return false; }},
+                                      light);
+  return has_surface ? std::optional(surface) : std::nullopt;
+}
+
+}  // namespace
+
+Geometry::Geometry(const scene::Scene& scene, const Vec3d& origin, std::span<const optics::Light> lights,
+                   std::span<const CompiledVolume> volumes)
+    : meshes_(scene.meshes.begin(), scene.meshes.end()), world_(meshes_), volumes_(volumes) {
+  prototypes_.reserve(scene.prototypes.size());  // groups point to earlier ones
+  for (const scene::Prototype& p : scene.prototypes) {
+    Group group(meshes_);
+    group.add(p.shapes);
+    group.add(p.instances, prototypes_);
+    group.finish();
+    prototypes_.push_back(std::move(group));
+  }
+  world_.add(scene.shapes, origin);
+  world_.add(scene.instances, prototypes_, origin);
+  light_surfaces_.reserve(lights.size());
+  for (std::uint32_t i = 0; i < lights.size(); ++i) {
+    const auto surface = light_surface(lights[i]);
+    if (!surface) continue;
+    light_surfaces_.push_back(*surface);
+    world_.add_light(light_surfaces_.back(), i);
+  }
+  world_.finish();
+
+  if (volumes.size() > few_things) {
+    std::vector<Bounds> boxes(volumes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      boxes[i] = placed_bounds(*bounds(volumes[i].shape, meshes_), volumes[i].render_from_shape);
+    volume_tree_.emplace(boxes);
+  }
+}
+
+std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) const {
+  const auto found = world_.closest_hit({ray.origin, ray.direction, ray.t_max}, kind);
+  if (!found) return std::nullopt;
+  SurfaceHit hit;
+  hit.t = found->t;
+  hit.position = found->position;
+  hit.normal = normalize(found->normal);
+  hit.position_object = found->position_object;
+  hit.normal_object = normalize(found->normal_object);
+  const bool smooth = length_squared(found->shading_normal) > 0;
+  hit.shading_normal = smooth ? normalize(found->shading_normal) : hit.normal;
+  hit.shading_normal_object = smooth ? normalize(found->shading_normal_object) : hit.normal_object;
+  hit.uv = found->uv;
+  if (found->light == no_index)
+    hit.material = found->material.index;
+  else
+    hit.light = found->light;
+  return hit;
+}
+
+bool Geometry::occluded(const Ray& ray, std::uint32_t target_light) const {
+  return world_.occluded({ray.origin, ray.direction, ray.t_max}, target_light);
+}
+
+void Geometry::volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const {
+  out.clear();
+  std::vector<Intervald> stays;
+  const auto test = [&](std::uint32_t index) {
+    const CompiledVolume& v = volumes_[index];
+    if (kind == RayKind::camera && !v.visible) return ray.t_max;
+    inside(v.shape, meshes_, v.shape_from_render.point(ray.origin), v.shape_from_render.vector(ray.direction),
+           ray.t_max, stays);
+    for (const Intervald& stay : stays) out.push_back({stay.lo, stay.hi, index});
+    return ray.t_max;
+  };
+  if (volume_tree_) {
+    volume_tree_->visit(ray.origin, ray.direction, ray.t_max, test);
+  } else {
+    for (std::uint32_t i = 0; i < volumes_.size(); ++i) test(i);
+  }
+  std::sort(out.begin(), out.end(), [](const VolumeInterval& a, const VolumeInterval& b) {
+    return a.t0 != b.t0 ? a.t0 < b.t0 : a.volume < b.volume;
+  });
+}
+
+}  // namespace tyndall::compile

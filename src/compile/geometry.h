@@ -1,0 +1,35 @@
+// The surfaces and volume bounds of a compiled scene, placed in render space.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compile/bounds_tree.h"
+#include "compile/compiled_scene.h"
+#include "compile/group.h"
+#include "compile/shape_queries.h"
+
+namespace tyndall::compile {
+
+class Geometry {
+ public:
+  // Keeps pointers to the elements of the scene's vectors and of `volumes`, which must not move (moving the
+  // vectors themselves is fine). Lights are in render space, whose zero is `origin`.
+  Geometry(const scene::Scene& scene, const Vec3d& origin, std::span<const optics::Light> lights,
+           std::span<const CompiledVolume> volumes);
+
+  std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind) const;
+  bool occluded(const Ray& ray, std::uint32_t target_light) const;
+  void volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const;
+
+ private:
+  std::vector<CompiledMesh> meshes_;
+  std::vector<Group> prototypes_;
+  std::vector<scene::ShapeInstance> light_surfaces_;
+  Group world_;
+  std::span<const CompiledVolume> volumes_;
+  std::optional<BoundsTree> volume_tree_;
+};
+
+}  // namespace tyndall::compile

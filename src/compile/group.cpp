@@ -1,0 +1,185 @@
+#include "compile/group.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/numerics.h"
+
+namespace tyndall::compile {
+
+namespace {
+
+Transform inverse_of(const Transform& t) {
+  const auto inverse = t.inverse();
+  CHECK(inverse.has_value());  // resolve refuses transforms that flatten space
+  return *inverse;
+}
+
+}  // namespace
+
+Bounds placed_bounds(const Bounds& b, const Transform& to) {
+  Bounds out{Vec3d(infinity), Vec3d(-infinity)};
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3d p =
+        to.point({corner & 1 ? b.hi.x : b.lo.x, corner & 2 ? b.hi.y : b.lo.y, corner & 4 ? b.hi.z : b.lo.z});
+    for (int axis = 0; axis < 3; ++axis) {
+      out.lo[axis] = std::min(out.lo[axis], p[axis]);
+      out.hi[axis] = std::max(out.hi[axis], p[axis]);
+    }
+  }
+  return out;
+}
+
+Transform Group::group_from_object(const Transform& placed, std::uint32_t light) const {
+  Transform out = placed;
+  if (light == no_index) out.t -= offset_;  // the surfaces of lights are in the group's space already
+  return out;
+}
+
+void Group::add(std::span<const scene::ShapeInstance> surfaces, const Vec3d& offset) {
+  offset_ = offset;
+  surfaces_.reserve(surfaces_.size() + surfaces.size());
+  for (const scene::ShapeInstance& s : surfaces)
+    surfaces_.push_back({inverse_of(group_from_object(s.world_from_object, no_index)), &s, no_index});
+}
+
+void Group::add_light(const scene::ShapeInstance& surface, std::uint32_t light) {
+  surfaces_.push_back({inverse_of(surface.world_from_object), &surface, light});
+}
+
+void Group::add(std::span<const scene::Instance> instances, std::span<const Group> prototypes,
+                const Vec3d& offset) {
+  offset_ = offset;
+  instances_.reserve(instances.size());
+  for (const scene::Instance& i : instances) {
+    const Group& prototype = prototypes[i.prototype.index];
+    if (!prototype.empty())
+      instances_.push_back({inverse_of(group_from_object(i.world_from_object, no_index)), &i, &prototype});
+  }
+}
+
+Bounds Group::box(const PlacedSurface& s) const {
+  return placed_bounds(*compile::bounds(s.surface->shape, meshes_),
+                       group_from_object(s.surface->world_from_object, s.light));
+}
+Bounds Group::box(const PlacedInstance& i) const {
+  return placed_bounds(*i.prototype->bounds(), group_from_object(i.instance->world_from_object, no_index));
+}
+
+void Group::finish() {
+  const auto infinite_surfaces = std::stable_partition(
+      surfaces_.begin(), surfaces_.end(),
+      [&](const PlacedSurface& s) { return compile::bounds(s.surface->shape, meshes_).has_value(); });
+  bounded_surfaces_ = static_cast<std::size_t>(infinite_surfaces - surfaces_.begin());
+  const auto infinite_instances =
+      std::stable_partition(instances_.begin(), instances_.end(),
+                            [](const PlacedInstance& i) { return i.prototype->bounds().has_value(); });
+  bounded_instances_ = static_cast<std::size_t>(infinite_instances - instances_.begin());
+
+  std::vector<Bounds> boxes;
+  boxes.reserve(bounded_surfaces_ + bounded_instances_);
+  for (std::size_t i = 0; i < bounded_surfaces_; ++i) boxes.push_back(box(surfaces_[i]));
+  for (std::size_t i = 0; i < bounded_instances_; ++i) boxes.push_back(box(instances_[i]));
+  if (boxes.size() > few_things) tree_.emplace(boxes);
+  if (boxes.empty() || bounded_surfaces_ < surfaces_.size() || bounded_instances_ < instances_.size()) return;
+  bounds_ = boxes.front();
+  for (const Bounds& b : boxes)
+    for (int axis = 0; axis < 3; ++axis) {
+      bounds_->lo[axis] = std::min(bounds_->lo[axis], b.lo[axis]);
+      bounds_->hi[axis] = std::max(bounds_->hi[axis], b.hi[axis]);
+    }
+}
+
+template <class Test>
+void Group::visit(const GroupRay& ray, Test&& test) const {
+  // Numbers as the tests know them: all surfaces, then all instances; the tree leaves those to infinity out.
+  const auto number = [&](std::uint32_t i) {
+    return i < bounded_surfaces_ ? i : static_cast<std::uint32_t>(i - bounded_surfaces_ + surfaces_.size());
+  };
+  for (std::size_t i = bounded_surfaces_; i < surfaces_.size(); ++i)
+    if (test(static_cast<std::uint32_t>(i)) < 0) return;
+  for (std::size_t i = bounded_instances_; i < instances_.size(); ++i)
+    if (test(static_cast<std::uint32_t>(surfaces_.size() + i)) < 0) return;
+  if (tree_)
+    return tree_->visit(ray.origin, ray.direction, ray.t_max,
+                        [&](std::uint32_t i) { return test(number(i)); });
+  for (std::uint32_t i = 0; i < bounded_surfaces_ + bounded_instances_; ++i)
+    if (test(number(i)) < 0) return;
+}
+
+std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) const {
+  double t_max = ray.t_max;
+  std::uint32_t best = no_index;
+  ShapeHit surface_hit;
+  GroupHit instance_hit;
+  visit(ray, [&](std::uint32_t index) {
+    // Of two things at the same t the first wins, whatever the order of the visits: let equals through.
+    const double limit = best == no_index ? t_max : std::nextafter(t_max, infinity);
+    double t = infinity;
+    if (index < surfaces_.size()) {
+      const PlacedSurface& s = surfaces_[index];
+      if (kind == RayKind::camera && !s.surface->visible) return t_max;
+      const auto hit = intersect(s.surface->shape, meshes_, s.object_from_group.point(ray.origin),
+                                 s.object_from_group.vector(ray.direction), limit);
+      if (!hit || (hit->t >= t_max && index > best)) return t_max;
+      surface_hit = *hit;
+      t = hit->t;
+    } else {
+      const PlacedInstance& i = instances_[index - surfaces_.size()];
+      if (kind == RayKind::camera && !i.instance->visible) return t_max;
+      const auto hit = i.prototype->closest_hit(
+          {i.object_from_group.point(ray.origin), i.object_from_group.vector(ray.direction), limit}, kind);
+      if (!hit || (hit->t >= t_max && index > best)) return t_max;
+      instance_hit = *hit;
+      t = hit->t;
+    }
+    best = index;
+    return t_max = t;
+  });
+  if (best == no_index) return std::nullopt;
+  if (best < surfaces_.size()) {
+    const PlacedSurface& s = surfaces_[best];
+    const Transform to_group = group_from_object(s.surface->world_from_object, s.light);
+    return GroupHit{surface_hit.t,
+                    to_group.point(surface_hit.position),
+                    to_group.normal(surface_hit.normal),
+                    surface_hit.position,
+                    surface_hit.normal,
+                    to_group.normal(surface_hit.shading_normal),
+                    surface_hit.shading_normal,
+                    surface_hit.uv,
+                    s.surface->material,
+                    s.light};
+  }
+  const PlacedInstance& i = instances_[best - surfaces_.size()];
+  const Transform to_group = group_from_object(i.instance->world_from_object, no_index);
+  GroupHit hit = instance_hit;
+  hit.position = to_group.point(hit.position);
+  hit.normal = to_group.normal(hit.normal);
+  hit.shading_normal = to_group.normal(hit.shading_normal);
+  if (!hit.material.valid()) hit.material = i.instance->material;
+  return hit;
+}
+
+bool Group::occluded(const GroupRay& ray, std::uint32_t target_light) const {
+  bool blocked = false;
+  visit(ray, [&](std::uint32_t index) {
+    if (index < surfaces_.size()) {
+      const PlacedSurface& s = surfaces_[index];
+      if (s.light != no_index && s.light == target_light) return ray.t_max;
+      blocked = intersect(s.surface->shape, meshes_, s.object_from_group.point(ray.origin),
+                          s.object_from_group.vector(ray.direction), ray.t_max)
+                    .has_value();
+    } else {
+      const PlacedInstance& i = instances_[index - surfaces_.size()];
+      blocked = i.prototype->occluded(
+          {i.object_from_group.point(ray.origin), i.object_from_group.vector(ray.direction), ray.t_max},
+          target_light);
+    }
+    return blocked ? -1.0 : ray.t_max;
+  });
+  return blocked;
+}
+
+}  // namespace tyndall::compile

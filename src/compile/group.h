@@ -1,0 +1,93 @@
+// Surfaces and instances of other groups in one space, with a tree over them: a scene's, or a prototype's,
+// which all its instances share. Rays are moved into the space of what they may meet, in double.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compile/bounds_tree.h"
+#include "compile/compiled_scene.h"
+#include "compile/mesh.h"
+#include "compile/shape_queries.h"
+
+namespace tyndall::compile {
+
+// A surface as a group keeps it; the rest stays in the scene.
+struct PlacedSurface {
+  Transform object_from_group;
+  const scene::ShapeInstance* surface = nullptr;
+  std::uint32_t light = no_index;  // of the surface of an area light
+};
+
+// The nearest hit in a group's space.
+struct GroupHit {
+  double t = 0;
+  Vec3d position, normal;                       // normal: outward, of any length but zero
+  Vec3d position_object, normal_object;         // in the shape's own space
+  Vec3d shading_normal, shading_normal_object;  // zero: as the normal
+  Pair<double> uv;
+  scene::MaterialId material;  // invalid: that of the instance
+  std::uint32_t light = no_index;
+};
+
+// A ray in a group's space; the direction has any length but zero, t is the caller's.
+struct GroupRay {
+  Vec3d origin, direction;
+  double t_max = 0;
+};
+
+class Group {
+ public:
+  // Keeps the span: the meshes that shapes name.
+  explicit Group(std::span<const CompiledMesh> meshes) : meshes_(meshes) {}
+
+  // Adds things; a group is ready for rays after finish(). The scene's elements must stay where they are.
+  // `offset` is the group's zero in the space that the things' transforms lead to.
+  void add(std::span<const scene::ShapeInstance> surfaces, const Vec3d& offset = {});
+  void add_light(const scene::ShapeInstance& surface, std::uint32_t light);
+  void add(std::span<const scene::Instance> instances, std::span<const Group> prototypes,
+           const Vec3d& offset = {});
+  void finish();
+
+  // Nothing when the group is empty or reaches to infinity.
+  const std::optional<Bounds>& bounds() const { return bounds_; }
+  bool empty() const { return surfaces_.empty() && instances_.empty(); }
+
+  // The nearest hit with t in (0, ray.t_max); of two at the same t that of the earlier surface.
+  std::optional<GroupHit> closest_hit(const GroupRay& ray, RayKind kind) const;
+  // True when anything but the surface of `target_light` is met in (0, ray.t_max).
+  bool occluded(const GroupRay& ray, std::uint32_t target_light) const;
+
+ private:
+  struct PlacedInstance {
+    Transform object_from_group;
+    const scene::Instance* instance = nullptr;
+    const Group* prototype = nullptr;
+  };
+  Bounds box(const PlacedSurface& s) const;
+  Bounds box(const PlacedInstance& i) const;
+  Transform group_from_object(const Transform& placed, std::uint32_t light) const;
+  // Calls test(index) for what the ray may meet: surfaces first, then instances, as numbered; test returns
+  // the t beyond which nothing matters, or a negative number to stop.
+  template <class Test>
+  void visit(const GroupRay& ray, Test&& test) const;
+
+  std::span<const CompiledMesh> meshes_;
+  // Each: bounded ones first, in the tree's order; then those that reach to infinity.
+  std::vector<PlacedSurface> surfaces_;
+  std::vector<PlacedInstance> instances_;
+  std::size_t bounded_surfaces_ = 0, bounded_instances_ = 0;
+  Vec3d offset_;
+  std::optional<BoundsTree> tree_;
+  std::optional<Bounds> bounds_;
+};
+
+// The box around a shape's own box where a transform puts it.
+Bounds placed_bounds(const Bounds& b, const Transform& to);
+
+// Up to this many things a plain loop is faster than a tree.
+inline constexpr std::size_t few_things = 8;
+
+}  // namespace tyndall::compile

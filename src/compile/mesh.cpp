@@ -1,0 +1,236 @@
+#include "compile/mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/numerics.h"
+
+namespace tyndall::compile {
+
+namespace {
+
+// Up to this many triangles a plain loop is faster than a tree.
+constexpr std::size_t few_triangles = 4;
+
+struct Point2 {
+  double x = 0, y = 0;
+};
+
+// The sign of p.x q.y - p.y q.x, exactly: rounding keeps the order of the products, and where both round to
+// the same their errors decide.
+int turn(const Point2& p, const Point2& q) {
+  const double a = p.x * q.y, b = p.y * q.x;
+  if (a != b) return a > b ? 1 : -1;
+  const double a_rest = std::fma(p.x, q.y, -a), b_rest = std::fma(p.y, q.x, -b);
+  return a_rest == b_rest ? 0 : a_rest > b_rest ? 1 : -1;
+}
+
+// Of the two sides of an edge through the ray one owns it: as if the ray were moved by (-e, e²).
+bool owns(const Point2& from, const Point2& to) { return to.y > from.y || (to.y == from.y && to.x > from.x); }
+
+struct TriangleHit {
+  double t = 0;
+  std::array<double, 3> weights{};  // of the corners
+  int side = 0;                     // 1: met from the front, -1: from behind
+};
+
+// The ray's own space: it runs along z through the origin, z is t, and the handedness is kept.
+class RaySpace {
+ public:
+  RaySpace(const Vec3d& origin, const Vec3d& direction) : origin_(origin) {
+    const Vec3d size{std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)};
+    z_ = size.x > size.y ? (size.x > size.z ? 0u : 2u) : (size.y > size.z ? 1u : 2u);
+    x_ = (z_ + 1) % 3;
+    y_ = (z_ + 2) % 3;
+    if (direction[z_] < 0) std::swap(x_, y_);
+    shear_x_ = direction[x_] / direction[z_];
+    shear_y_ = direction[y_] / direction[z_];
+    scale_z_ = 1 / direction[z_];
+  }
+
+  // Where the line meets a triangle, at any t.
+  std::optional<TriangleHit> meet(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+    const std::array<Vec3d, 3> from_origin{a - origin_, b - origin_, c - origin_};
+    std::array<Point2, 3> corner;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3d& v = from_origin[i];
+      corner[i] = {v[x_] - shear_x_ * v[z_], v[y_] - shear_y_ * v[z_]};
+    }
+    // turns[i] belongs to the edge opposite corner i.
+    std::array<int, 3> turns{};
+    int orientation = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      turns[i] = turn(corner[(i + 1) % 3], corner[(i + 2) % 3]);
+      if (turns[i] == 0) continue;
+      if (orientation == -turns[i]) return std::nullopt;
+      orientation = turns[i];
+    }
+    if (orientation == 0) return std::nullopt;  // edge on
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (turns[i] != 0) continue;
+      const Point2 &from = corner[(i + 1) % 3], &to = corner[(i + 2) % 3];
+      if (!(orientation > 0 ? owns(from, to) : owns(to, from))) return std::nullopt;
+    }
+    TriangleHit hit;
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point2 &p = corner[(i + 1) % 3], &q = corner[(i + 2) % 3];
+      hit.weights[i] = std::abs(p.x * q.y - p.y * q.x);
+      sum += hit.weights[i];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      hit.weights[i] = sum > 0 ? hit.weights[i] / sum : 1.0 / 3;  // slivers whose areas all round to 0
+      hit.t += hit.weights[i] * from_origin[i][z_] * scale_z_;
+    }
+    // Seen along the ray, a front side runs clockwise.
+    hit.side = -orientation;
+    return hit;
+  }
+
+ private:
+  Vec3d origin_;
+  std::size_t x_, y_, z_;
+  double shear_x_, shear_y_, scale_z_;
+};
+
+template <class T>
+T mixed(const std::vector<T>& of_points, const std::array<std::uint32_t, 3>& triangle,
+        const std::array<double, 3>& weights);
+template <>
+Vec3d mixed(const std::vector<Vec3d>& v, const std::array<std::uint32_t, 3>& t,
+            const std::array<double, 3>& w) {
+  return v[t[0]] * w[0] + v[t[1]] * w[1] + v[t[2]] * w[2];
+}
+template <>
+Pair<double> mixed(const std::vector<Pair<double>>& v, const std::array<std::uint32_t, 3>& t,
+                   const std::array<double, 3>& w) {
+  return {v[t[0]].x * w[0] + v[t[1]].x * w[1] + v[t[2]].x * w[2],
+          v[t[0]].y * w[0] + v[t[1]].y * w[1] + v[t[2]].y * w[2]};
+}
+
+struct Crossing {
+  double t;
+  std::uint32_t triangle;
+  int side;
+};
+
+}  // namespace
+
+CompiledMesh::CompiledMesh(const scene::TriangleMesh& mesh)
+    : mesh_(&mesh), bounds_{Vec3d(infinity), Vec3d(-infinity)} {
+  std::vector<Bounds> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    Bounds box{Vec3d(infinity), Vec3d(-infinity)};
+    for (const std::uint32_t corner : triangle)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = std::min(box.lo[axis], mesh.points[corner][axis]);
+        box.hi[axis] = std::max(box.hi[axis], mesh.points[corner][axis]);
+      }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bounds_.lo[axis] = std::min(bounds_.lo[axis], box.lo[axis]);
+      bounds_.hi[axis] = std::max(bounds_.hi[axis], box.hi[axis]);
+    }
+    boxes.push_back(box);
+  }
+  if (boxes.size() > few_triangles) tree_.emplace(boxes);
+}
+
+template <class Test>
+void CompiledMesh::visit(const Vec3d& origin, const Vec3d& direction, double t_max, Test&& test) const {
+  if (tree_) return tree_->visit(origin, direction, t_max, test);
+  for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) test(i);
+}
+
+std::optional<ShapeHit> CompiledMesh::intersect(const Vec3d& origin, const Vec3d& direction,
+                                                double t_max) const {
+  const RaySpace space(origin, direction);
+  std::optional<TriangleHit> best;
+  std::uint32_t best_index = 0;
+  visit(origin, direction, t_max, [&](std::uint32_t index) {
+    const auto& triangle = mesh_->triangles[index];
+    const auto hit =
+        space.meet(mesh_->points[triangle[0]], mesh_->points[triangle[1]], mesh_->points[triangle[2]]);
+    if (hit && hit->t > 0 && (hit->t < t_max || (best && hit->t == t_max && index < best_index))) {
+      best = hit;
+      best_index = index;
+      t_max = hit->t;
+    }
+    // Equal ones must still be met, so that the first triangle wins.
+    return best ? std::nextafter(t_max, infinity) : t_max;
+  });
+  if (!best) return std::nullopt;
+  const auto& triangle = mesh_->triangles[best_index];
+  const Vec3d &a = mesh_->points[triangle[0]], &b = mesh_->points[triangle[1]],
+              &c = mesh_->points[triangle[2]];
+  ShapeHit hit{best->t,
+               mixed(mesh_->points, triangle, best->weights),
+               cross(b - a, c - a),
+               {best->weights[1], best->weights[2]}};
+  if (!(length_squared(hit.normal) > 0)) return std::nullopt;  // a sliver below a double's range
+  if (!mesh_->uvs.empty()) hit.uv = mixed(mesh_->uvs, triangle, best->weights);
+  if (!mesh_->normals.empty()) hit.shading_normal = mixed(mesh_->normals, triangle, best->weights);
+  return hit;
+}
+
+void CompiledMesh::inside(const Vec3d& origin, const Vec3d& direction, double t_max,
+                          std::vector<Intervald>& out) const {
+  // All crossings of the line, from before the mesh: the winding number where the ray starts is counted, not
+  // guessed.
+  const Vec3d center = (bounds_.lo + bounds_.hi) * 0.5;
+  const double radius = length(bounds_.hi - bounds_.lo), d = length(direction);
+  const double nearest = dot(center - origin, direction) / sqr(d), start = nearest - radius / d;
+  const RaySpace space(origin, direction);
+  std::vector<Crossing> crossings;
+  visit(origin + direction * start, direction, 2 * radius / d, [&](std::uint32_t index) {
+    const auto& triangle = mesh_->triangles[index];
+    const auto hit =
+        space.meet(mesh_->points[triangle[0]], mesh_->points[triangle[1]], mesh_->points[triangle[2]]);
+    if (hit) crossings.push_back({hit->t, index, hit->side});
+    return 2 * radius / d;
+  });
+  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+    return a.t != b.t ? a.t < b.t : a.triangle < b.triangle;
+  });
+  // Embree may tell of one box more than once.
+  const auto same = [](const Crossing& a, const Crossing& b) { return a.triangle == b.triangle; };
+  crossings.erase(std::unique(crossings.begin(), crossings.end(), same), crossings.end());
+  int winding = 0;
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    // What an open mesh leaves open at its last crossing is not inside.
+    if (winding != 0) {
+      const Intervald stay = Intervald{crossings[i - 1].t, crossings[i].t}.clipped_to({0, t_max});
+      if (!stay.empty()) {
+        if (!out.empty() && out.back().hi == stay.lo)
+          out.back().hi = stay.hi;
+        else
+          out.push_back(stay);
+      }
+    }
+    winding += crossings[i].side;
+  }
+}
+
+std::optional<ShapeHit> intersect(const scene::Shape& shape, std::span<const CompiledMesh> meshes,
+                                  const Vec3d& origin, const Vec3d& direction, double t_max) {
+  if (const auto* mesh = std::get_if<scene::Mesh>(&shape))
+    return meshes[mesh->mesh.index].intersect(origin, direction, t_max);
+  return intersect(shape, origin, direction, t_max);
+}
+
+void inside(const scene::Shape& shape, std::span<const CompiledMesh> meshes, const Vec3d& origin,
+            const Vec3d& direction, double t_max, std::vector<Intervald>& out) {
+  out.clear();
+  if (const auto* mesh = std::get_if<scene::Mesh>(&shape))
+    return meshes[mesh->mesh.index].inside(origin, direction, t_max, out);
+  const Intervald stay = inside(shape, origin, direction, t_max);
+  if (!stay.empty()) out.push_back(stay);
+}
+
+std::optional<Bounds> bounds(const scene::Shape& shape, std::span<const CompiledMesh> meshes) {
+  if (const auto* mesh = std::get_if<scene::Mesh>(&shape)) return meshes[mesh->mesh.index].bounds();
+  return bounds(shape);
+}
+
+}  // namespace tyndall::compile

@@ -1,0 +1,34 @@
+// Rays against analytic shapes (meshes: mesh.h), in double and in the shape's own space. Directions need not
+// have unit length: t is the caller's.
+#pragma once
+
+#include <optional>
+
+#include "base/interval.h"
+#include "base/vec.h"
+#include "scene/scene.h"
+
+namespace tyndall::compile {
+
+struct ShapeHit {
+  double t = 0;
+  Vec3d position, normal;  // outward, of any length but zero
+  Pair<double> uv;
+  Vec3d shading_normal{};  // where the shape smooths its normals; zero: the same
+};
+
+// The nearest crossing of the surface with t in (0, t_max). A ray that starts on the surface to rounding is
+// kept off it by the caller's offset (see surface_offset).
+std::optional<ShapeHit> intersect(const scene::Shape& shape, const Vec3d& origin, const Vec3d& direction,
+                                  double t_max);
+
+// The stay inside a closed shape, clipped to [0, t_max); empty when there is none. Open shapes have none.
+Intervald inside(const scene::Shape& shape, const Vec3d& origin, const Vec3d& direction, double t_max);
+
+// Axis-aligned bounds in the shape's space. An infinite plane has none.
+struct Bounds {
+  Vec3d lo, hi;
+};
+std::optional<Bounds> bounds(const scene::Shape& shape);
+
+}  // namespace tyndall::compile

@@ -1,0 +1,169 @@
+// Built-ins that the table describes wholly: an opcode and how arguments become its operands.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "eval/calls.h"
+#include "eval/operators.h"
+
+namespace tyndall::eval {
+
+using vm::Op;
+
+namespace {
+
+// Built-ins of the componentwise shape that also take angles; mix takes them for its ends alone.
+bool takes_angles(Op op) {
+  return op == Op::min || op == Op::max || op == Op::mix || op == Op::clamp || op == Op::abs || op == Op::mod;
+}
+
+Value wrong_argument(CallSite& site, std::size_t i, std::string_view wanted) {
+  const Type found = site.arguments[i].type;
+  return site.ev.error(site.spans[i],
+                       fmt::format("{} wants {}, found {}", site.what(i), wanted, describe(found)),
+                       found == Type::angle ? "divide an angle by 1rad to get its number" : "");
+}
+
+// Reads options that settle the instruction itself, so they must be known. False after an error.
+bool read_whole(CallSite& site, std::string_view name, double lowest, double highest, double& value) {
+  const auto& parameters = site.entry.row->parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].name != name || !site.given[i]) continue;
+    bool ok = true;
+    const Value given = site.as(Type::number, i, ok);
+    if (!ok) return false;
+    if (!given.known()) {
+      site.ev.error(site.spans[i], fmt::format("{} must be known when the scene is read", site.what(i)),
+                    "use a constant or a parameter");
+      return false;
+    }
+    value = given.as_number();
+    if (value != std::floor(value) || value < lowest || value > highest) {
+      site.ev.error(site.spans[i], fmt::format("{} wants a whole number in {}..{}, found {}", site.what(i),
+                                               lowest, highest, text_of(given)));
+      return false;
+    }
+  }
+  return true;
+}
+
+struct Field {
+  std::vector<Scalar> operands;
+  std::uint8_t octaves = 0;
+  std::uint32_t seed = 0;
+};
+
+// Reads a point, an optional time and options; nothing after an error.
+std::optional<Field> read_field(CallSite& site) {
+  Field field;
+  bool ok = true;
+  const Value point = site.as(Type::vec, 0, ok);
+  if (!ok) return std::nullopt;
+  field.operands.assign(point.scalars.begin(), point.scalars.end());
+  double octaves = 0, seed = 0;
+  const auto& parameters = site.entry.row->parameters;
+  for (std::size_t i = 1; i < parameters.size(); ++i) {
+    if (parameters[i].name == "octaves")
+      octaves = std::strtod(std::string(parameters[i].default_value).c_str(), nullptr);
+    if (parameters[i].name == "octaves" || parameters[i].name == "seed" || !site.given[i]) continue;
+    field.operands.push_back(site.as(Type::number, i, ok).scalars[0]);
+  }
+  if (!ok || !read_whole(site, "octaves", 1, max_octaves, octaves) ||
+      !read_whole(site, "seed", 0, 4294967295.0, seed))
+    return std::nullopt;
+  field.octaves = static_cast<std::uint8_t>(octaves);
+  field.seed = static_cast<std::uint32_t>(seed);
+  return field;
+}
+
+Op next(Op op, int steps) { return static_cast<Op>(static_cast<int>(op) + steps); }
+
+}  // namespace
+
+Value call_componentwise(CallSite& site) {
+  const vm::Builtin& row = *site.entry.row;
+  const std::size_t n = row.parameters.size();
+  const Op op = row.op;
+  // The last argument of mix is a weight: a number also between angles and phase functions.
+  const std::size_t mixed = op == Op::mix ? n - 1 : n;
+  if (op == Op::mix && site.arguments[0].type == Type::phase && site.arguments[1].type == Type::phase)
+    return phase_handler("mix").bound(site);
+  bool angles = takes_angles(op) && site.arguments[0].type == Type::angle;
+  Type type = Type::number;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Type found = site.arguments[i].type;
+    if (angles && i < mixed) {
+      if (found != Type::angle) return wrong_argument(site, i, "an angle like the others");
+      continue;
+    }
+    const std::optional<Type> common = common_type(type, found);
+    if (!common)
+      return wrong_argument(site, i,
+                            type == Type::number ? "a number, pair or vec" : "a value as wide as the others");
+    type = *common;
+  }
+  if (angles && type != Type::number) return wrong_argument(site, n - 1, "a number");
+  if (angles) type = Type::angle;
+  Value result;
+  result.type = type;
+  if (type == Type::number) {
+    result.unit = takes_angles(op) ? site.arguments[0].unit : syntax::Unit::none;
+    for (std::size_t i = 0; i < mixed; ++i)
+      if (site.arguments[i].unit != result.unit) result.unit = syntax::Unit::none;
+  }
+  std::array<Scalar, 4> operands;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(result.width()); ++c) {
+    for (std::size_t i = 0; i < n; ++i)
+      operands[i] = site.arguments[i].scalars[site.arguments[i].width() == 1 ? 0 : c];
+    result.scalars[c] = site.ev.emit(op, std::span<const Scalar>(operands.data(), n), site.span);
+  }
+  return result;
+}
+
+Value call_angle_to_number(CallSite& site) {
+  if (site.arguments[0].type != Type::angle && site.arguments[0].type != Type::number)
+    return wrong_argument(site, 0, "an angle or a number in radians");
+  return Value::of(Type::number,
+                   {site.ev.emit(site.entry.row->op, {site.arguments[0].scalars[0]}, site.span)});
+}
+
+Value call_number_to_angle(CallSite& site) {
+  const std::size_t n = site.entry.row->parameters.size();
+  std::array<Scalar, 4> operands;
+  bool ok = true;
+  for (std::size_t i = 0; i < n; ++i) operands[i] = site.as(Type::number, i, ok).scalars[0];
+  if (!ok) return {};
+  return Value::of(Type::angle, {site.ev.emit(site.entry.row->op, std::span<const Scalar>(operands.data(), n),
+                                              site.span)});
+}
+
+Value call_length(CallSite& site) {
+  const Value& v = site.arguments[0];
+  if (v.type == Type::list) return Value::number(static_cast<double>(v.as_list().size()));
+  if (v.type == Type::pair)
+    return Value::of(Type::number, {site.ev.emit(Op::length2, {v.scalars[0], v.scalars[1]}, site.span)});
+  if (v.type == Type::vec)
+    return Value::of(Type::number,
+                     {site.ev.emit(Op::length3, {v.scalars[0], v.scalars[1], v.scalars[2]}, site.span)});
+  return wrong_argument(site, 0, "a pair, a vec or a list");
+}
+
+Value call_field(CallSite& site) {
+  const std::optional<Field> field = read_field(site);
+  if (!field) return {};
+  const Op op = next(site.entry.row->op, field->operands.size() == 4 ? 1 : 0);
+  return Value::of(Type::number, {site.ev.emit(op, field->operands, site.span, field->octaves, field->seed)});
+}
+
+Value call_vector_field(CallSite& site) {
+  const std::optional<Field> field = read_field(site);
+  if (!field) return {};
+  Value result = Value::of(Type::vec, {});
+  for (int i = 0; i < 3; ++i)
+    result.scalars[static_cast<std::size_t>(i)] =
+        site.ev.emit(next(site.entry.row->op, i + (field->operands.size() == 4 ? 3 : 0)), field->operands,
+                     site.span, field->octaves, field->seed);
+  return result;
+}
+
+}  // namespace tyndall::eval

@@ -1,0 +1,175 @@
+// Calls of functions and bodies: binding arguments to parameters, running what the function says.
+#include "eval/calls.h"
+
+#include <fmt/format.h>
+
+#include "base/check.h"
+
+namespace tyndall::eval {
+
+using namespace syntax;
+
+namespace {
+
+std::vector<std::string_view> parameter_names(const Evaluator& ev, std::span<const Parameter> parameters) {
+  std::vector<std::string_view> names;
+  for (const Parameter& parameter : parameters) names.push_back(ev.text(parameter.name.symbol));
+  return names;
+}
+
+std::string listed(const std::vector<std::string_view>& names) {
+  return names.empty() ? "it takes no arguments" : fmt::format("it takes {}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tree, ListRef parameter_list,
+                                                 const std::shared_ptr<const Scope>& definition_scope,
+                                                 const SyntaxTree& call_tree, ListRef argument_list,
+                                                 const std::shared_ptr<Scope>& call_scope,
+                                                 std::string_view callee, Span call) {
+  const auto parameters = definition_tree.list_of_parameters(parameter_list);
+  const auto arguments = call_tree.list_of_arguments(argument_list);
+  constexpr std::size_t absent = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> argument_of(parameters.size(), absent);
+  bool failed = false;
+  std::size_t position = 0;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const Argument& argument = arguments[i];
+    const Span span = argument.name.symbol.valid() ? argument.name.span : call_tree[argument.value].span;
+    std::size_t index = position;
+    if (argument.name.symbol.valid()) {
+      index = 0;
+      while (index < parameters.size() && parameters[index].name.symbol != argument.name.symbol) ++index;
+      if (index == parameters.size()) {
+        const auto names = parameter_names(*this, parameters);
+        const std::string_view word = text(argument.name.symbol);
+        const std::string guess = did_you_mean(word, names);
+        error(span, fmt::format("'{}' has no parameter '{}'", callee, word),
+              guess.empty() ? listed(names) : guess,
+              {{definition_tree.parameters.empty() || parameters.empty() ? Span{} : parameters[0].name.span,
+                "the parameters"}});
+        failed = true;
+        check_names(call_tree, argument.value, call_scope);
+        continue;
+      }
+    } else if (position++ >= parameters.size()) {
+      error(span, fmt::format("too many arguments for '{}'", callee),
+            listed(parameter_names(*this, parameters)));
+      failed = true;
+      break;
+    }
+    if (argument_of[index] != absent) {
+      error(span, fmt::format("'{}' is given twice", text(parameters[index].name.symbol)));
+      failed = true;
+    }
+    argument_of[index] = i;
+  }
+  auto scope = std::make_shared<Scope>();
+  scope->parent = definition_scope;
+  scope->assignments_end_here = true;
+  scope->bindings.reserve(parameters.size());
+  for (std::size_t i = 0; i < parameters.size() && !failed; ++i) {
+    const Parameter& parameter = parameters[i];
+    Binding binding{parameter.name.symbol, {}, BindingKind::parameter, parameter.name.span, false};
+    if (argument_of[i] != absent) {
+      binding.value = evaluate(call_tree, arguments[argument_of[i]].value, call_scope);
+    } else if (parameter.default_value.valid()) {
+      frames_.push_back({nullptr, call});  // a default sees what the function sees
+      binding.value = evaluate(definition_tree, parameter.default_value, scope);
+      frames_.pop_back();
+    } else {
+      error(call, fmt::format("'{}' wants '{}'", callee, text(parameter.name.symbol)),
+            listed(parameter_names(*this, parameters)), {{parameter.name.span, "it has no default"}});
+      failed = true;
+    }
+    if (binding.value.is_error()) failed = true;
+    scope->bindings.push_back(std::move(binding));
+  }
+  return failed ? nullptr : scope;
+}
+
+Value Evaluator::call(const Function& function, const SyntaxTree& tree, const CallExpr& call_expr,
+                      std::string_view name, Span span, const std::shared_ptr<Scope>& scope) {
+  const auto* item = std::get_if<FunctionItem>(&function.item->node);
+  if (!item)
+    return error(span, fmt::format("'{}' places things and gives no value", name),
+                 "call it as a statement of its own");
+  for (const Frame& frame : frames_)
+    if (frame.item == function.item)
+      return error(span, fmt::format("'{}' calls itself", text(item->name.symbol)),
+                   "functions may not; use a for loop", {{item->name.span, "defined here"}});
+  if (static_cast<int>(frames_.size()) >= max_call_depth)
+    return error(span, fmt::format("more than {} functions inside each other", max_call_depth));
+  const std::shared_ptr<Scope> inner = bind_arguments(*function.tree, item->parameters, function.scope, tree,
+                                                      call_expr.arguments, scope, name, span);
+  if (!inner) return {};
+  frames_.push_back({function.item, span});
+  Value result;
+  if (item->value.valid()) {
+    result = evaluate(*function.tree, item->value, inner);
+  } else {
+    const int errors = errors_reported_;
+    const std::optional<Value> returned = run_steps(*function.tree, item->steps, inner, {});
+    if (returned)
+      result = *returned;
+    else if (errors_reported_ == errors)
+      error(item->name.span, fmt::format("'{}' ends without a value on some path", text(item->name.symbol)),
+            "end it with return");
+  }
+  frames_.pop_back();
+  return result;
+}
+
+std::optional<Body> Evaluator::bound(const Body& body, Span use) {
+  if (body.scope) return body;
+  CHECK(body.item != nullptr);
+  Body result = body;
+  const auto empty = std::make_shared<Scope>();
+  result.scope = bind_arguments(*body.tree, body.item->parameters, body.definition_scope, *body.tree,
+                                ListRef{}, empty, body.name, use);
+  if (!result.scope) return std::nullopt;
+  result.key = key_of(result, *result.scope);
+  return result;
+}
+
+Value Evaluator::instantiate(const Body& body, const SyntaxTree& tree, const CallExpr& call_expr, Span span,
+                             const std::shared_ptr<Scope>& scope) {
+  const bool medium = body.kind == BodyKind::medium;
+  if (!body.item)
+    return error(span, fmt::format("an unnamed {} takes no arguments", medium ? "medium" : "material"));
+  Body result = body;
+  result.scope = bind_arguments(*body.tree, body.item->parameters, body.definition_scope, tree,
+                                call_expr.arguments, scope, body.name, span);
+  if (!result.scope) return {};
+  for (const Binding& binding : result.scope->bindings)
+    if (!binding.value.known())
+      return error(span, fmt::format("'{}' must be known when the scene is read", text(binding.symbol)));
+  result.key = key_of(result, *result.scope);
+  return Value::of_heavy(medium ? Type::medium : Type::material, std::move(result));
+}
+
+Value evaluate_call(Evaluator& ev, const SyntaxTree& tree, const CallExpr& call, Span span,
+                    const std::shared_ptr<Scope>& scope) {
+  const Expr& callee = tree[call.callee];
+  Value value;
+  std::string_view name = "this";
+  if (const auto* named = std::get_if<NameExpr>(&callee.node)) {
+    name = ev.text(named->symbol);
+    if (!scope->find(named->symbol))
+      if (const BuiltinEntry* entry = ev.names().builtin(named->symbol))
+        return call_builtin(ev, *entry, tree, call, span, scope);
+  }
+  value = ev.evaluate(tree, call.callee, scope);
+  if (value.is_error()) {
+    for (const Argument& argument : tree.list_of_arguments(call.arguments))
+      ev.check_names(tree, argument.value, scope);
+    return {};
+  }
+  if (const auto* function = value.get<Function>()) return ev.call(*function, tree, call, name, span, scope);
+  if (const auto* body = value.get<Body>()) return ev.instantiate(*body, tree, call, span, scope);
+  return ev.error(callee.span, fmt::format("'{}' is {}, not a function", name, describe(value.type)),
+                  value.width() > 0 ? "write * to multiply" : "");
+}
+
+}  // namespace tyndall::eval

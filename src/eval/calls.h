@@ -1,0 +1,55 @@
+// Calls of built-ins and functions (internal to this layer).
+#pragma once
+
+#include "eval/evaluator.h"
+
+namespace tyndall::eval {
+
+// A call of a built-in. With BuiltinEntry::bound the arguments are evaluated and stand at their parameters'
+// places.
+struct CallSite {
+  Evaluator& ev;
+  const BuiltinEntry& entry;
+  const syntax::SyntaxTree& tree;
+  const syntax::CallExpr& call;
+  Span span;
+  const std::shared_ptr<Scope>& scope;
+
+  static constexpr std::size_t max_arguments = 8;
+  std::array<Value, max_arguments> arguments{};
+  std::array<Span, max_arguments> spans{};
+  std::array<bool, max_arguments> given{};
+
+  std::string_view name() const { return entry.row->name; }
+  std::span<const syntax::Argument> written() const { return tree.list_of_arguments(call.arguments); }
+  // The argument as a type, after reporting what does not fit; `ok` turns false.
+  Value as(Type type, std::size_t i, bool& ok, bool widen = false);
+  // "octaves of fbm"
+  std::string what(std::size_t i) const;
+};
+
+Value evaluate_call(Evaluator& evaluator, const syntax::SyntaxTree& tree, const syntax::CallExpr& call,
+                    Span span, const std::shared_ptr<Scope>& scope);
+// Calls a built-in of any shape.
+Value call_builtin(Evaluator& evaluator, const BuiltinEntry& entry, const syntax::SyntaxTree& tree,
+                   const syntax::CallExpr& call, Span span, const std::shared_ptr<Scope>& scope);
+
+// The handlers by name of this layer's hand-written built-ins (nullptr: none).
+struct Handlers {
+  Value (*bound)(CallSite&) = nullptr;
+  Value (*free)(CallSite&) = nullptr;
+};
+Handlers vector_handler(std::string_view name);     // builtins_vector.cpp
+Handlers transform_handler(std::string_view name);  // builtins_transform.cpp
+Handlers phase_handler(std::string_view name);      // builtins_phase.cpp
+Handlers keys_handler(std::string_view name);       // builtins_keys.cpp
+
+// Calls by the shapes of vm::Shape (builtins_shapes.cpp).
+Value call_componentwise(CallSite& site);
+Value call_angle_to_number(CallSite& site);
+Value call_number_to_angle(CallSite& site);
+Value call_length(CallSite& site);
+Value call_field(CallSite& site);
+Value call_vector_field(CallSite& site);
+
+}  // namespace tyndall::eval

@@ -1,0 +1,238 @@
+// What a name stands for, and what a definition adds to a scope.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/numerics.h"
+#include "eval/evaluator.h"
+#include "eval/name_walk.h"
+
+namespace tyndall::eval {
+
+using namespace syntax;
+
+static std::string_view spelling(Special special) {
+  switch (special) {
+    case Special::none:
+      return {};
+    case Special::time:
+      return "time";
+    case Special::frame:
+      return "frame";
+    case Special::pi:
+      return "pi";
+    case Special::p:
+      return "p";
+    case Special::P:
+      return "P";
+    case Special::n:
+      return "n";
+    case Special::N:
+      return "N";
+    case Special::uv:
+      return "uv";
+  }
+  return {};
+}
+
+// True where bodies of that kind have the input.
+static bool has_input(BodyKind kind, Special special) {
+  switch (special) {
+    case Special::p:
+    case Special::P:
+      return true;
+    case Special::n:
+    case Special::N:
+    case Special::uv:
+      return kind == BodyKind::material;
+    case Special::none:
+    case Special::time:
+    case Special::frame:
+    case Special::pi:
+      return false;
+  }
+  return false;
+}
+
+// Functions do not see the inputs of the body that calls them.
+bool Evaluator::sees(Special special) const {
+  return in_body() && frames_.empty() && has_input(body_, special);
+}
+
+Value Evaluator::input(Special special, Span span) {
+  const auto read = [&](vm::Input first, int count) {
+    Value value = Value::of(count == 2 ? Type::pair : Type::vec, {});
+    for (int i = 0; i < count; ++i)
+      value.scalars[static_cast<std::size_t>(i)].node =
+          builder_->input(static_cast<vm::Input>(static_cast<int>(first) + i));
+    return value;
+  };
+  switch (special) {
+    case Special::time:
+      if (!in_body()) return Value::number(context_.time);
+      return Value::of(Type::number, {Scalar{0, builder_->input(vm::Input::time)}});
+    case Special::frame:
+      return Value::number(context_.frame);
+    case Special::pi:
+      return Value::number(pi);
+    case Special::p:
+      return read(vm::Input::p_x, 3);
+    case Special::P:
+      return read(vm::Input::P_x, 3);
+    case Special::n:
+      return read(vm::Input::n_x, 3);
+    case Special::N:
+      return read(vm::Input::N_x, 3);
+    case Special::uv:
+      return read(vm::Input::u, 2);
+    case Special::none:
+      break;
+  }
+  return error(span, "no such input");
+}
+
+Value Evaluator::value_of_name(SymbolId symbol, Span span, const Scope& scope) {
+  const Special special = names().special(symbol);
+  if (special == Special::time || special == Special::frame || sees(special)) return input(special, span);
+  if (const Binding* binding = scope.find(symbol)) return binding->value;
+  if (special == Special::pi) return input(special, span);
+  if (const BuiltinEntry* entry = names().builtin(symbol)) {
+    if (entry->row->result == "phase" && entry->row->parameters.empty()) {
+      const SyntaxTree none;
+      const CallExpr call{};
+      const auto empty = std::make_shared<Scope>();
+      CallSite site{*this, *entry, none, call, span, empty};
+      return entry->bound(site);
+    }
+    return error(span, fmt::format("'{}' is a function", text(symbol)),
+                 fmt::format("call it: {}", entry->row->example));
+  }
+  return unknown_name(symbol, span, &scope, {});
+}
+
+Value Evaluator::unknown_name(SymbolId symbol, Span span, const Scope* scope,
+                              std::span<const SymbolId> locals) {
+  const std::string_view word = text(symbol);
+  const Special special = names().special(symbol);
+  if (special != Special::none) {
+    if (in_body() && has_input(body_, special))
+      return error(span, fmt::format("a function does not see '{}'", word), "pass it as an argument");
+    if (in_body())
+      return error(span, fmt::format("a medium has no '{}'", word), "its inputs are p, P and time");
+    return error(span, fmt::format("'{}' is known only inside a medium or material", word),
+                 frames_.empty() ? "" : "pass it as an argument");
+  }
+  std::vector<std::string_view> candidates;
+  for (const SymbolId local : locals) candidates.push_back(text(local));
+  for (const Scope* s = scope; s; s = s->parent.get())
+    for (const Binding& binding : s->bindings) candidates.push_back(text(binding.symbol));
+  for (const auto& entry : names().builtins) candidates.push_back(entry->row->name);
+  for (const Special known : {Special::time, Special::frame, Special::pi, Special::p, Special::P, Special::n,
+                              Special::N, Special::uv})
+    if (!has_input(BodyKind::material, known) || sees(known)) candidates.push_back(spelling(known));
+  return error(span, fmt::format("nothing is named '{}' here", word), did_you_mean(word, candidates));
+}
+
+// True for values that may hold the scope they are bound in: definitions, bodies, shapes, and lists of them.
+static bool holds_scope(const Value& value) {
+  if (const auto* list = value.get<std::vector<Value>>())
+    return std::any_of(list->begin(), list->end(), holds_scope);
+  return value.get<Function>() || value.get<Body>() || value.get<ShapeLiteral>() ||
+         value.get<ObjectDefinition>();
+}
+
+void Evaluator::bind(const std::shared_ptr<Scope>& scope, Binding binding) {
+  const Special special = names().special(binding.symbol);
+  if (special == Special::time || special == Special::frame || sees(special)) {
+    error(binding.definition, fmt::format("'{}' cannot be redefined here", text(binding.symbol)),
+          "choose another name");
+    return;
+  }
+  if (const Binding* earlier = scope->find_here(binding.symbol)) {
+    error(binding.definition, fmt::format("'{}' is defined twice", text(binding.symbol)),
+          "choose another name", {{earlier->definition, "the first is here"}});
+    return;
+  }
+  auto& kept = context_.names->scopes_with_definitions;
+  if (holds_scope(binding.value) && (kept.empty() || kept.back() != scope)) kept.push_back(scope);
+  scope->bindings.push_back(std::move(binding));
+}
+
+void Evaluator::check_parameters(const SyntaxTree& tree, ListRef list, const BodyKind* body) {
+  const auto parameters = tree.list_of_parameters(list);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Name& name = parameters[i].name;
+    const Special special = names().special(name.symbol);
+    if (special == Special::time || special == Special::frame || (body && has_input(*body, special)))
+      error(name.span, fmt::format("'{}' cannot be redefined here", text(name.symbol)),
+            "choose another name");
+    for (std::size_t k = 0; k < i; ++k)
+      if (parameters[k].name.symbol == name.symbol)
+        error(name.span, fmt::format("'{}' is defined twice", text(name.symbol)), "choose another name",
+              {{parameters[k].name.span, "the first is here"}});
+  }
+}
+
+// Captured names that end in the key: what the body's block and the parameters take from its surroundings.
+std::string Evaluator::key_of(const Body& body, const Scope& scope) {
+  auto [entry, is_new] = context_.names->free_names.try_emplace(body.definition);
+  if (is_new) entry->second = free_names(*body.tree, body.block);
+  std::string key =
+      fmt::format("{}:{}-{}", body.definition.source.index, body.definition.begin, body.definition.end);
+  for (const SymbolId symbol : entry->second)
+    if (const Binding* binding = scope.find(symbol)) {
+      fmt::format_to(std::back_inserter(key), ";{}=", symbol.index);
+      append_key(key, binding->value);
+    }
+  return key;
+}
+
+bool Evaluator::define(const SyntaxTree& tree, const Item& item, const std::shared_ptr<Scope>& scope) {
+  const auto add = [&](const Name& name, Value value, BindingKind kind) {
+    bind(scope, {name.symbol, std::move(value), kind, name.span, false});
+  };
+  if (const auto* let = std::get_if<LetItem>(&item.node)) {
+    add(let->name, evaluate(tree, let->value, scope), BindingKind::constant);
+  } else if (const auto* var = std::get_if<VarItem>(&item.node)) {
+    add(var->name, evaluate(tree, var->value, scope), BindingKind::variable);
+  } else if (const auto* function = std::get_if<FunctionItem>(&item.node)) {
+    check_parameters(tree, function->parameters, nullptr);
+    check_definition(*this, tree, item, scope);
+    add(function->name, Value::of_heavy(Type::function, Function{&tree, &item, scope}),
+        BindingKind::constant);
+  } else if (const auto* form = std::get_if<TemplateItem>(&item.node)) {
+    check_parameters(tree, form->parameters, nullptr);
+    add(form->name, Value::of_heavy(Type::function, Function{&tree, &item, scope}), BindingKind::constant);
+  } else if (const auto* body = std::get_if<BodyItem>(&item.node)) {
+    check_parameters(tree, body->parameters, &body->kind);
+    check_definition(*this, tree, item, scope);
+    Body value;
+    value.tree = &tree;
+    value.kind = body->kind;
+    value.name = text(body->name.symbol);
+    value.definition = body->name.span;
+    value.block = body->body;
+    value.item = body;
+    value.definition_scope = scope;
+    value.key = key_of(value, *scope);
+    const Type type = body->kind == BodyKind::medium ? Type::medium : Type::material;
+    add(body->name, Value::of_heavy(type, std::move(value)), BindingKind::constant);
+  } else if (const auto* object = std::get_if<ObjectItem>(&item.node)) {
+    add(object->name, Value::of_heavy(Type::object, ObjectDefinition{&tree, object, scope}),
+        BindingKind::constant);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void Evaluator::report_unused(const Scope& scope) {
+  for (const Binding& binding : scope.bindings) {
+    if (binding.used || binding.kind == BindingKind::parameter || binding.value.is_error()) continue;
+    if (binding.definition.source != context_.main_source || text(binding.symbol).starts_with('_')) continue;
+    context_.diagnostics->warning(binding.definition, fmt::format("'{}' is never used", text(binding.symbol)),
+                                  fmt::format("remove it, or call it _{}", text(binding.symbol)));
+  }
+}
+
+}  // namespace tyndall::eval

@@ -1,0 +1,165 @@
+// Evaluates expressions: literals, operators, built-ins, functions with steps, conditionals, lists, ranges.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "eval/names.h"
+#include "eval/scope.h"
+#include "eval/value.h"
+#include "syntax/tree.h"
+#include "vm/builder.h"
+
+namespace tyndall::eval {
+
+// Limits of the language, so that no input can exhaust the machine.
+inline constexpr int max_call_depth = 64;               // functions calling functions
+inline constexpr int max_expression_depth = 1000;       // nested evaluations, calls included
+inline constexpr int max_loop_iterations = 100'000;     // one `for` in a function of scene code
+inline constexpr int max_total_iterations = 1'000'000;  // all of them below one outermost evaluation
+inline constexpr int max_unrolled_iterations = 4'096;   // one `for` in a body
+inline constexpr int max_total_unrolled = 65'536;       // all of them in one body
+inline constexpr int max_octaves = 32;
+
+// What a whole run shares.
+struct Context {
+  const Sources* sources = nullptr;
+  syntax::Symbols* symbols = nullptr;
+  Diagnostics* diagnostics = nullptr;
+  double time = 0;  // seconds, when the shutter opens
+  double frame = 0;
+  SourceId main_source{0};         // the file whose unused names are warned of
+  std::shared_ptr<Names> names{};  // made when first needed; must outlive the values of the run
+};
+
+// How many values a range holds (0 when empty, or when its step is 0 or not finite), and the i-th.
+std::int64_t count(const RangeValue& range);
+double at(const RangeValue& range, std::int64_t index);
+
+// Evaluates in scene code (builder == nullptr: everything is known, a division by zero or NaN is an error at
+// its place) or in a body of the given kind (`builder` collects what depends on the inputs).
+class Evaluator {
+ public:
+  explicit Evaluator(Context& context, vm::Builder* builder = nullptr,
+                     syntax::BodyKind body = syntax::BodyKind::medium);
+
+  // The value, or an error value after reporting why there is none. `scope` is where names are looked up.
+  Value evaluate(const syntax::SyntaxTree& tree, syntax::ExprId expr, const std::shared_ptr<Scope>& scope);
+
+  // The same, converted to `type` where the language converts (a number widens to a vec only if `widen`);
+  // reports "wanted an angle, found a number: write 40deg" at the expression otherwise. `what` names the
+  // receiver.
+  Value evaluate_as(Type type, const syntax::SyntaxTree& tree, syntax::ExprId expr,
+                    const std::shared_ptr<Scope>& scope, std::string_view what, bool widen = false);
+
+  // Converts a value that is already there, as evaluate_as does; `span` is where it was written.
+  Value convert(Type type, const Value& value, Span span, std::string_view what, bool widen = false);
+
+  // Binds what a definition defines (let, var, def, template, medium, material, object) in `scope`, after
+  // checking the names inside a def or body. False when the item is no definition.
+  bool define(const syntax::SyntaxTree& tree, const syntax::Item& item, const std::shared_ptr<Scope>& scope);
+
+  // Adds a binding; reports a name that the scope has already or that may not be redefined here.
+  void bind(const std::shared_ptr<Scope>& scope, Binding binding);
+
+  // Binds the call's arguments to the definition's parameters (positional, named, defaults evaluated in
+  // order) in a new scope below the definition's. Reports unknown, missing and doubled ones. Null after an
+  // error.
+  std::shared_ptr<Scope> bind_arguments(const syntax::SyntaxTree& definition_tree, syntax::ListRef parameters,
+                                        const std::shared_ptr<const Scope>& definition_scope,
+                                        const syntax::SyntaxTree& call_tree, syntax::ListRef arguments,
+                                        const std::shared_ptr<Scope>& call_scope, std::string_view callee,
+                                        Span call);
+
+  // The body with its parameters' defaults, when it is not bound yet; nothing after reporting a parameter
+  // without a default. `use` is the place that names the body.
+  std::optional<Body> bound(const Body& body, Span use);
+
+  // Runs let, var, assignment, if, for and nested def items of a block in order. For bodies `assign_output`
+  // is told of an assignment to a name that is no `var` in scope (an output); for function steps it is empty
+  // and `return` gives the value.
+  using AssignOutput =
+      std::function<void(const syntax::Item& item, const syntax::AssignItem& assign, Value value)>;
+  std::optional<Value> run_steps(const syntax::SyntaxTree& tree, syntax::BlockId block,
+                                 const std::shared_ptr<Scope>& scope, const AssignOutput& assign_output);
+
+  // Looks every name of the expression or block up, without evaluating it; reports unknown ones.
+  void check_names(const syntax::SyntaxTree& tree, syntax::ExprId expr,
+                   const std::shared_ptr<const Scope>& scope);
+  void check_names(const syntax::SyntaxTree& tree, syntax::BlockId block,
+                   const std::shared_ptr<const Scope>& scope);
+
+  // Warns of every binding of this scope that nothing used, except parameters and names with a leading `_`.
+  void report_unused(const Scope& scope);
+
+  // The value of `op`: computed when every operand is known, a node of the program otherwise.
+  Scalar emit(vm::Op op, std::span<const Scalar> operands, Span span, std::uint8_t repeats = 0,
+              std::uint32_t immediate = 0);
+  Scalar emit(vm::Op op, std::initializer_list<Scalar> operands, Span span, std::uint8_t repeats = 0,
+              std::uint32_t immediate = 0) {
+    return emit(op, std::span(operands.begin(), operands.size()), span, repeats, immediate);
+  }
+
+  // The node of a scalar, making a constant of a known one. Bodies only.
+  vm::NodeId node(const Scalar& scalar);
+
+  // Reports an error with the chain of calls that led here, and gives the error value.
+  Value error(Span span, std::string message, std::string help = {},
+              std::vector<Diagnostic::Note> notes = {});
+  // In scene code: the value, or an error when a scalar of it is not finite.
+  Value finite(const Value& value, Span span);
+
+  // Calls a function value with arguments written in `tree`.
+  Value call(const Function& function, const syntax::SyntaxTree& tree, const syntax::CallExpr& call,
+             std::string_view name, Span span, const std::shared_ptr<Scope>& scope);
+
+  // Counts iterations against the limits; reports and gives false past them.
+  bool may_iterate(std::int64_t iterations, Span span);
+
+  // How many errors were reported through this evaluator, repeated ones included.
+  int errors_reported() const { return errors_reported_; }
+
+  bool in_body() const { return builder_ != nullptr; }
+  Context& context() { return context_; }
+  vm::Builder* builder() { return builder_; }
+  std::string_view text(syntax::SymbolId symbol) const { return context_.symbols->text(symbol); }
+  const Names& names() const { return *context_.names; }
+
+ private:
+  friend struct Dispatch;  // evaluator.cpp: one overload for each kind of expression
+  friend class NameCheck;
+
+  struct Frame {
+    const syntax::Item* item;
+    Span call;
+  };
+  class Nested;  // counts the nesting of evaluations
+
+  Value input(Special special, Span span);
+  Value value_of_name(syntax::SymbolId symbol, Span span, const Scope& scope);
+  Value unknown_name(syntax::SymbolId symbol, Span span, const Scope* scope,
+                     std::span<const syntax::SymbolId> locals);
+  bool sees(Special special) const;
+  friend Value evaluate_call(Evaluator&, const syntax::SyntaxTree&, const syntax::CallExpr&, Span,
+                             const std::shared_ptr<Scope>&);
+  Value instantiate(const Body& body, const syntax::SyntaxTree& tree, const syntax::CallExpr& call, Span span,
+                    const std::shared_ptr<Scope>& scope);
+  std::string key_of(const Body& body, const Scope& scope);
+  void check_parameters(const syntax::SyntaxTree& tree, syntax::ListRef parameters,
+                        const syntax::BodyKind* body);
+
+  Context& context_;
+  vm::Builder* builder_;
+  syntax::BodyKind body_;
+  std::vector<Frame> frames_;
+  int depth_ = 0;
+  int errors_reported_ = 0;
+  std::int64_t iterations_ = 0;
+};
+
+}  // namespace tyndall::eval

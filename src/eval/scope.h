@@ -1,0 +1,35 @@
+// Names in force at a place: a chain of scopes, innermost first.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/source.h"
+#include "eval/value.h"
+#include "syntax/tree.h"
+
+namespace tyndall::eval {
+
+enum class BindingKind : std::uint8_t { constant, variable, parameter };
+
+struct Binding {
+  syntax::SymbolId symbol;
+  mutable Value value;  // changes for variables only
+  BindingKind kind = BindingKind::constant;
+  Span definition;
+  mutable bool used = false;
+};
+
+// One scope. Definitions in the same scope must differ in name; an inner scope may hide an outer one's.
+// Add bindings with Evaluator::bind, which reports doubled names.
+struct Scope {
+  std::shared_ptr<const Scope> parent;
+  std::vector<Binding> bindings;  // small: searched from the back
+  // The scope of a function's parameters: assignments inside do not reach the variables outside.
+  bool assignments_end_here = false;
+
+  const Binding* find(syntax::SymbolId symbol) const;       // through the parents; marks it used
+  const Binding* find_here(syntax::SymbolId symbol) const;  // this scope only; does not mark
+};
+
+}  // namespace tyndall::eval

@@ -1,0 +1,335 @@
+// Runs the steps of functions and bodies. A condition that is known picks its branch; one that differs from
+// place to place runs both, and what they set is chosen value by value.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "eval/evaluator.h"
+#include "eval/operators.h"
+
+namespace tyndall::eval {
+
+using namespace syntax;
+
+namespace {
+
+// What a branch changed: variables of the scopes outside of it, and outputs.
+struct Changes {
+  struct Variable {
+    const Binding* binding;
+    Value before, after;
+  };
+  struct Output {
+    const Item* item;
+    const AssignItem* assign;
+    Value value;
+  };
+  const Scope* outside = nullptr;
+  std::vector<Variable> variables;
+  std::vector<Output> outputs;
+};
+
+// A value returned where `condition` holds, while the function goes on elsewhere.
+struct PartialReturn {
+  Scalar condition;
+  Value value;
+  Span span;
+};
+
+class Steps {
+ public:
+  Steps(Evaluator& ev, const SyntaxTree& tree, const Evaluator::AssignOutput& assign_output)
+      : ev_(ev), tree_(tree), assign_output_(assign_output) {}
+
+  std::optional<Value> run_all(BlockId block, const std::shared_ptr<Scope>& scope) {
+    std::optional<Value> result = run(block, scope);
+    for (auto partial = partial_returns_.rbegin(); result && partial != partial_returns_.rend(); ++partial)
+      result = select(ev_, partial->condition, partial->value, *result, partial->span);
+    return result;
+  }
+
+ private:
+  // Runs the items in `scope`; a value when the block returned.
+  std::optional<Value> run(BlockId block, const std::shared_ptr<Scope>& scope) {
+    for (const ItemId id : tree_.list_of_items(tree_[block].items)) {
+      const Item& item = tree_[id];
+      std::optional<Value> returned;
+      if (const auto* loop = std::get_if<ForItem>(&item.node))
+        returned = run_loop(*loop, scope);
+      else if (const auto* choice = std::get_if<IfItem>(&item.node))
+        returned = run_choice(*choice, item.span, scope);
+      else if (const auto* assign = std::get_if<AssignItem>(&item.node))
+        this->assign(item, *assign, scope);
+      else if (const auto* result = std::get_if<ReturnItem>(&item.node))
+        returned = this->result(*result, item.span, scope);
+      else if (!ev_.define(tree_, item, scope))
+        ev_.error(item.span,
+                  assign_output_ ? "a body only computes: nothing can be placed in it"
+                                 : "a function only computes: nothing can be placed in it",
+                  assign_output_ ? "use let, var, if, for and outputs such as density = 1"
+                                 : "write def name(…) { … } without = for a template that places things");
+      if (returned) return returned;
+    }
+    ev_.report_unused(*scope);
+    return std::nullopt;
+  }
+
+  static std::shared_ptr<Scope> below(const std::shared_ptr<Scope>& scope) {
+    auto inner = std::make_shared<Scope>();
+    inner->parent = scope;
+    return inner;
+  }
+
+  std::optional<Value> result(const ReturnItem& item, Span span, const std::shared_ptr<Scope>& scope) {
+    if (!assign_output_) return ev_.evaluate(tree_, item.value, scope);
+    ev_.error(span, "return belongs in a function", "a body sets outputs, for instance density = 1");
+    return std::nullopt;
+  }
+
+  struct Found {
+    const Binding* binding = nullptr;
+    bool outside_of_branch = false;
+  };
+  // The nearest binding of the name up to the function's edge.
+  Found find(SymbolId symbol, const Scope* scope) const {
+    bool passed = false;
+    for (; scope; scope = scope->parent.get()) {
+      passed |= !branches_.empty() && branches_.back()->outside == scope;
+      if (const Binding* binding = scope->find_here(symbol)) return {binding, passed};
+      if (scope->assignments_end_here) break;
+    }
+    return {};
+  }
+
+  void assign(const Item& item, const AssignItem& assign, const std::shared_ptr<Scope>& scope) {
+    const Value value = ev_.evaluate(tree_, assign.value, scope);
+    const Found found = find(assign.name.symbol, scope.get());
+    if (found.binding && found.binding->kind == BindingKind::variable) {
+      set(*found.binding, found.outside_of_branch, value, assign.name.span);
+    } else if (assign_output_) {
+      set_output(item, assign, value);
+    } else if (found.binding || scope->find(assign.name.symbol)) {
+      const Binding* constant = found.binding ? found.binding : scope->find(assign.name.symbol);
+      ev_.error(assign.name.span, fmt::format("'{}' cannot be changed here", ev_.text(assign.name.symbol)),
+                constant->kind == BindingKind::variable ? "a function changes its own variables only"
+                                                        : "define it with var to change it",
+                {{constant->definition, "it is defined here"}});
+    } else {
+      ev_.error(assign.name.span, fmt::format("nothing is named '{}' here", ev_.text(assign.name.symbol)),
+                fmt::format("write let {} = … to define it", ev_.text(assign.name.symbol)));
+    }
+  }
+
+  void set(const Binding& binding, bool outside_of_branch, const Value& value, Span span) {
+    if (!value.is_error() && !binding.value.is_error() && value.type != binding.value.type &&
+        !(is_numeric(value.type) && is_numeric(binding.value.type))) {
+      ev_.error(span,
+                fmt::format("'{}' is {}, but this is {}", ev_.text(binding.symbol),
+                            describe(binding.value.type), describe(value.type)),
+                "a variable keeps its kind", {{binding.definition, "it is defined here"}});
+      return;
+    }
+    if (outside_of_branch) {
+      auto& changed = branches_.back()->variables;
+      const bool known =
+          std::any_of(changed.begin(), changed.end(), [&](const auto& c) { return c.binding == &binding; });
+      if (!known) changed.push_back({&binding, binding.value, {}});
+    }
+    binding.value = value;
+  }
+
+  void set_output(const Item& item, const AssignItem& assign, const Value& value) {
+    if (branches_.empty())
+      assign_output_(item, assign, value);
+    else
+      branches_.back()->outputs.push_back({&item, &assign, value});
+  }
+
+  std::optional<Value> run_loop(const ForItem& loop, const std::shared_ptr<Scope>& scope) {
+    const Span span = tree_[loop.range].span;
+    const Value over = ev_.evaluate(tree_, loop.range, scope);
+    if (over.is_error()) {
+      poison(loop.body, scope);
+      return std::nullopt;
+    }
+    const auto* range = over.get<RangeValue>();
+    const auto* list = over.get<std::vector<Value>>();
+    if (!range && !list) {
+      ev_.error(span, fmt::format("'for' wants a range or a list, found {}", describe(over.type)),
+                "write for i in 0..<8 { … }");
+      return std::nullopt;
+    }
+    const std::int64_t rounds = range ? count(*range) : static_cast<std::int64_t>(list->size());
+    if (rounds == 0) {
+      const auto inner = below(scope);
+      inner->bindings.push_back(
+          {loop.name.symbol, Value::number(0), BindingKind::parameter, loop.name.span, false});
+      ev_.check_names(tree_, loop.body, inner);
+    }
+    if (!ev_.may_iterate(rounds, span)) return std::nullopt;
+    for (std::int64_t i = 0; i < rounds; ++i) {
+      const auto inner = below(scope);
+      const Value value = range ? Value::number(at(*range, i)) : (*list)[static_cast<std::size_t>(i)];
+      ev_.bind(inner, {loop.name.symbol, value, BindingKind::parameter, loop.name.span, false});
+      if (std::optional<Value> returned = run(loop.body, inner)) return returned;
+      if (ev_.context().diagnostics->full()) break;
+    }
+    return std::nullopt;
+  }
+
+  // After an error in a header: nothing inside is known, and nothing is complained of that follows from it.
+  void poison(BlockId block, const std::shared_ptr<Scope>& scope) {
+    for (const ItemId id : tree_.list_of_items(tree_[block].items)) {
+      const Item& item = tree_[id];
+      if (const auto* assign = std::get_if<AssignItem>(&item.node)) {
+        const Found found = find(assign->name.symbol, scope.get());
+        if (found.binding && found.binding->kind == BindingKind::variable)
+          set(*found.binding, found.outside_of_branch, {}, assign->name.span);
+        else if (assign_output_)
+          set_output(item, *assign, {});
+      } else if (const auto* choice = std::get_if<IfItem>(&item.node)) {
+        poison(choice->then_block, scope);
+      } else if (const auto* loop = std::get_if<ForItem>(&item.node)) {
+        poison(loop->body, scope);
+      }
+    }
+  }
+
+  // Outputs that a block sets, by what is written: variables of its own or of `scope` are none.
+  void outputs_of(BlockId block, const Scope* scope, std::vector<SymbolId>& own,
+                  std::vector<const AssignItem*>& found) const {
+    for (const ItemId id : tree_.list_of_items(tree_[block].items)) {
+      const Item& item = tree_[id];
+      if (const auto* var = std::get_if<VarItem>(&item.node)) own.push_back(var->name.symbol);
+      if (const auto* loop = std::get_if<ForItem>(&item.node)) outputs_of(loop->body, scope, own, found);
+      if (const auto* choice = std::get_if<IfItem>(&item.node))
+        outputs_of(choice->then_block, scope, own, found);
+      const auto* assign = std::get_if<AssignItem>(&item.node);
+      if (!assign || std::find(own.begin(), own.end(), assign->name.symbol) != own.end()) continue;
+      const Found variable = find(assign->name.symbol, scope);
+      if (!variable.binding || variable.binding->kind != BindingKind::variable) found.push_back(assign);
+    }
+  }
+
+  // Reports outputs that only one of the branches sets.
+  void compare_outputs(const IfItem& item, const Scope* scope) {
+    std::vector<const AssignItem*> in_then, in_else;
+    std::vector<SymbolId> own;
+    outputs_of(item.then_block, scope, own, in_then);
+    own.clear();
+    if (item.else_block.valid()) outputs_of(item.else_block, scope, own, in_else);
+    const auto lacks = [](const std::vector<const AssignItem*>& list, SymbolId symbol) {
+      return std::none_of(list.begin(), list.end(),
+                          [&](const AssignItem* a) { return a->name.symbol == symbol; });
+    };
+    for (const auto& [here, there] : {std::pair{&in_then, &in_else}, std::pair{&in_else, &in_then}})
+      for (const AssignItem* assign : *here)
+        if (lacks(*there, assign->name.symbol))
+          ev_.error(assign->name.span,
+                    fmt::format("'{}' is set in one branch only", ev_.text(assign->name.symbol)),
+                    item.else_block.valid() ? "set it in the other branch too"
+                                            : "add an else branch that sets it too");
+  }
+
+  std::optional<Value> run_choice(const IfItem& item, Span span, const std::shared_ptr<Scope>& scope) {
+    if (assign_output_) compare_outputs(item, scope.get());
+    const Value condition = ev_.evaluate_as(Type::boolean, tree_, item.condition, scope, "'if'");
+    if (condition.is_error()) {
+      poison(item.then_block, scope);
+      return std::nullopt;
+    }
+    const bool has_else = item.else_block.valid();
+    if (condition.scalars[0].known()) {
+      const bool taken = condition.as_bool();
+      const BlockId run_block = taken ? item.then_block : item.else_block;
+      const BlockId other = taken ? item.else_block : item.then_block;
+      if (other.valid()) ev_.check_names(tree_, other, scope);
+      return run_block.valid() ? run(run_block, below(scope)) : std::nullopt;
+    }
+    Changes then_changes, else_changes;
+    std::vector<PartialReturn> then_partial, else_partial;
+    const std::optional<Value> then_value = run_branch(item.then_block, scope, then_changes, then_partial);
+    std::optional<Value> else_value;
+    if (has_else) else_value = run_branch(item.else_block, scope, else_changes, else_partial);
+    const Scalar c = condition.scalars[0];
+    const Scalar not_c = ev_.emit(vm::Op::logical_not, {c}, span);
+    // Returns inside a branch hold where the branch is taken.
+    for (const auto& [partials, where] : {std::pair{&then_partial, c}, std::pair{&else_partial, not_c}})
+      for (PartialReturn& partial : *partials) {
+        partial.condition = ev_.emit(vm::Op::logical_and, {where, partial.condition}, span);
+        partial_returns_.push_back(partial);
+      }
+    if (then_value && else_value) return select(ev_, c, *then_value, *else_value, span);
+    if (then_value) partial_returns_.push_back({c, *then_value, span});
+    if (else_value) partial_returns_.push_back({not_c, *else_value, span});
+    merge(c, then_changes, else_changes, then_value.has_value(), else_value.has_value(), span);
+    return std::nullopt;
+  }
+
+  // Runs a branch and takes its changes back.
+  std::optional<Value> run_branch(BlockId block, const std::shared_ptr<Scope>& scope, Changes& changes,
+                                  std::vector<PartialReturn>& partial) {
+    changes.outside = scope.get();
+    branches_.push_back(&changes);
+    std::swap(partial, partial_returns_);
+    std::optional<Value> returned = run(block, below(scope));
+    std::swap(partial, partial_returns_);
+    branches_.pop_back();
+    for (Changes::Variable& variable : changes.variables) {
+      variable.after = variable.binding->value;
+      variable.binding->value = variable.before;
+    }
+    return returned;
+  }
+
+  // Sets what the branches changed; a branch that returned leaves the other's values.
+  void merge(const Scalar& condition, const Changes& a, const Changes& b, bool a_returned, bool b_returned,
+             Span span) {
+    const auto after = [](const Changes& changes, const Binding* binding) {
+      for (const Changes::Variable& v : changes.variables)
+        if (v.binding == binding) return v.after;
+      return binding->value;
+    };
+    std::vector<const Binding*> changed;
+    for (const Changes* changes : {&a, &b})
+      for (const Changes::Variable& v : changes->variables)
+        if (std::find(changed.begin(), changed.end(), v.binding) == changed.end())
+          changed.push_back(v.binding);
+    for (const Binding* binding : changed) {
+      const Value from_a = after(a, binding), from_b = after(b, binding);
+      const Value merged = a_returned   ? from_b
+                           : b_returned ? from_a
+                                        : select(ev_, condition, from_a, from_b, span);
+      set(*binding, is_outside(binding), merged, span);
+    }
+    for (const Changes::Output& output : a.outputs)
+      for (const Changes::Output& other : b.outputs)
+        if (other.assign->name.symbol == output.assign->name.symbol)
+          set_output(*output.item, *output.assign,
+                     select(ev_, condition, output.value, other.value, output.item->span));
+  }
+
+  // True when the binding lives outside of the branch that is running (if one is).
+  bool is_outside(const Binding* binding) const {
+    if (branches_.empty()) return false;
+    for (const Scope* scope = branches_.back()->outside; scope; scope = scope->parent.get())
+      if (scope->find_here(binding->symbol) == binding) return true;
+    return false;
+  }
+
+  Evaluator& ev_;
+  const SyntaxTree& tree_;
+  const Evaluator::AssignOutput& assign_output_;
+  std::vector<Changes*> branches_;
+  std::vector<PartialReturn> partial_returns_;
+};
+
+}  // namespace
+
+std::optional<Value> Evaluator::run_steps(const SyntaxTree& tree, BlockId block,
+                                          const std::shared_ptr<Scope>& scope,
+                                          const AssignOutput& assign_output) {
+  return Steps(*this, tree, assign_output).run_all(block, scope);
+}
+
+}  // namespace tyndall::eval

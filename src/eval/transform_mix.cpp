@@ -1,0 +1,102 @@
+// The way from one transform to another.
+#include "eval/transform_mix.h"
+
+#include <cmath>
+#include <optional>
+
+namespace tyndall::eval {
+
+namespace {
+
+struct Quaternion {
+  double w, x, y, z;
+};
+
+// M = rotation * stretch, without offset.
+struct Polar {
+  Transform rotation, stretch;
+};
+
+Transform transposed(const Transform& m) {
+  return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}, {}};
+}
+
+Transform lerped(const Transform& a, const Transform& b, double t) {
+  const auto between = [t](const Vec3d& from, const Vec3d& to) { return from * (1 - t) + to * t; };
+  return {between(a.x, b.x), between(a.y, b.y), between(a.z, b.z), between(a.t, b.t)};
+}
+
+// The nearest rotation by Newton's iteration (Higham 1986); nothing when the map flattens or mirrors.
+std::optional<Polar> polar(Transform m) {
+  m.t = {};
+  if (!(m.determinant() > 0)) return std::nullopt;
+  Transform q = m;
+  constexpr int rounds = 100;
+  for (int i = 0; i < rounds; ++i) {
+    const std::optional<Transform> inverse = q.inverse();
+    if (!inverse) return std::nullopt;
+    const Transform next = lerped(q, transposed(*inverse), 0.5);
+    const double change = length(next.x - q.x) + length(next.y - q.y) + length(next.z - q.z);
+    q = next;
+    if (change < 1e-14) break;
+  }
+  return Polar{q, transposed(q) * m};
+}
+
+// Shepperd's method: divides by the largest of the four.
+Quaternion quaternion(const Transform& r) {
+  const double trace = r.x.x + r.y.y + r.z.z;
+  if (trace > 0) {
+    const double s = 2 * std::sqrt(trace + 1);
+    return {s / 4, (r.y.z - r.z.y) / s, (r.z.x - r.x.z) / s, (r.x.y - r.y.x) / s};
+  }
+  if (r.x.x > r.y.y && r.x.x > r.z.z) {
+    const double s = 2 * std::sqrt(1 + r.x.x - r.y.y - r.z.z);
+    return {(r.y.z - r.z.y) / s, s / 4, (r.y.x + r.x.y) / s, (r.z.x + r.x.z) / s};
+  }
+  if (r.y.y > r.z.z) {
+    const double s = 2 * std::sqrt(1 + r.y.y - r.x.x - r.z.z);
+    return {(r.z.x - r.x.z) / s, (r.y.x + r.x.y) / s, s / 4, (r.z.y + r.y.z) / s};
+  }
+  const double s = 2 * std::sqrt(1 + r.z.z - r.x.x - r.y.y);
+  return {(r.x.y - r.y.x) / s, (r.z.x + r.x.z) / s, (r.z.y + r.y.z) / s, s / 4};
+}
+
+Transform rotation(const Quaternion& q) {
+  return {{1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y + q.w * q.z), 2 * (q.x * q.z - q.w * q.y)},
+          {2 * (q.x * q.y - q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z + q.w * q.x)},
+          {2 * (q.x * q.z + q.w * q.y), 2 * (q.y * q.z - q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)},
+          {}};
+}
+
+Quaternion slerp(const Quaternion& a, Quaternion b, double t) {
+  double cosine = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
+  if (cosine < 0) {  // the other quaternion of the same rotation is nearer
+    b = {-b.w, -b.x, -b.y, -b.z};
+    cosine = -cosine;
+  }
+  double weight_a = 1 - t, weight_b = t;
+  if (cosine < 1 - 1e-12) {
+    const double angle = std::acos(cosine);
+    weight_a = std::sin((1 - t) * angle) / std::sin(angle);
+    weight_b = std::sin(t * angle) / std::sin(angle);
+  }
+  const Quaternion q{weight_a * a.w + weight_b * b.w, weight_a * a.x + weight_b * b.x,
+                     weight_a * a.y + weight_b * b.y, weight_a * a.z + weight_b * b.z};
+  const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
+}
+
+}  // namespace
+
+Transform mix(const Transform& a, const Transform& b, double t) {
+  const Transform straight = lerped(a, b, t);
+  const std::optional<Polar> pa = polar(a), pb = polar(b);
+  if (!pa || !pb) return straight;
+  const Quaternion turned = slerp(quaternion(pa->rotation), quaternion(pb->rotation), t);
+  Transform result = rotation(turned) * lerped(pa->stretch, pb->stretch, t);
+  result.t = straight.t;
+  return result;
+}
+
+}  // namespace tyndall::eval

@@ -1,0 +1,120 @@
+#include "image/image.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "image/codec.h"
+#include "image/files.h"
+
+namespace tyndall::image {
+namespace {
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::optional<Format> format_of(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (extension == ".exr") return Format::exr;
+  if (extension == ".png") return Format::png;
+  return std::nullopt;
+}
+
+std::string unknown_format(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return fmt::format(
+      "'{}' {}: pictures are .exr or .png", path,
+      extension.empty() ? "has no extension" : fmt::format("has the unknown extension '{}'", extension));
+}
+
+// The module around OpenImageIO, found beside the program by its run path; null with a reason when it is not
+// there.
+struct LoadedCodec {
+  const Codec* codec = nullptr;
+  std::string problem;
+};
+const LoadedCodec& load_codec() {
+  static const LoadedCodec loaded = [] {
+    LoadedCodec result;
+    void* module = ::dlopen(TYNDALL_CODEC_FILE, RTLD_NOW | RTLD_LOCAL);
+    if (module != nullptr) result.codec = static_cast<const Codec*>(::dlsym(module, codec_symbol));
+    if (result.codec == nullptr) result.problem = ::dlerror();
+    return result;
+  }();
+  return loaded;
+}
+
+// IEC 61966-2-1, of a value in [0, 1].
+float srgb_from_linear(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+float linear_from_srgb(float srgb) {
+  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+std::vector<std::uint8_t> display_bytes(const Image& image, double exposure) {
+  const auto scale = static_cast<float>(std::exp2(exposure));
+  std::vector<std::uint8_t> bytes(image.pixels.size());
+  std::transform(image.pixels.begin(), image.pixels.end(), bytes.begin(), [scale](float value) {
+    const float exposed = value * scale;
+    if (std::isnan(exposed)) return std::uint8_t{0};
+    return static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(std::clamp(exposed, 0.0f, 1.0f))));
+  });
+  return bytes;
+}
+
+}  // namespace
+
+std::string write(const std::string& path, const Image& image, const Metadata& metadata, double exposure) {
+  const std::optional<Format> format = format_of(path);
+  if (!format) return unknown_format(path);
+  const LoadedCodec& loaded = load_codec();
+  std::string problem = loaded.problem;
+  std::vector<unsigned char> bytes;
+  if (problem.empty()) {
+    std::vector<std::uint8_t> display;
+    if (*format == Format::png) display = display_bytes(image, exposure);
+    problem = loaded.codec->encode(image, display, metadata, *format, bytes);
+  }
+  if (!problem.empty()) return fmt::format("cannot write '{}': {}", path, problem);
+  return write_file_whole(path, std::as_bytes(std::span(bytes)));
+}
+
+std::string check_writable(const std::string& path) {
+  if (!format_of(path)) return unknown_format(path);
+  return check_file_creatable(path);
+}
+
+ReadResult read(const std::string& path) {
+  const std::optional<Format> format = format_of(path);
+  if (!format) return {.error = unknown_format(path)};
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    return {.error = fmt::format("cannot read '{}': it is a directory", path)};
+  if (!std::filesystem::exists(path, ignored))
+    return {.error = fmt::format("cannot read '{}': no such file", path)};
+
+  const LoadedCodec& loaded = load_codec();
+  ReadResult result =
+      loaded.codec != nullptr ? loaded.codec->decode(path) : ReadResult{.error = loaded.problem};
+  if (!result.image) return {.error = fmt::format("cannot read '{}': {}", path, result.error)};
+  if (*format == Format::png) {
+    Image& image = *result.image;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      if (image.channels[i % image.channels.size()] != "A")
+        image.pixels[i] = linear_from_srgb(image.pixels[i]);
+  }
+  return result;
+}
+
+}  // namespace tyndall::image

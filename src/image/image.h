@@ -1,0 +1,47 @@
+// Float images with named channels; reading and writing through OpenImageIO (in one .cpp).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace tyndall::image {
+
+// Row by row from the top, channels interleaved.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;  // "R", "G", "B", …
+  std::vector<float> pixels;          // width * height * channels.size()
+
+  float& at(int x, int y, std::size_t channel) { return pixels[index(x, y, channel)]; }
+  float at(int x, int y, std::size_t channel) const { return pixels[index(x, y, channel)]; }
+  std::size_t index(int x, int y, std::size_t channel) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+               channels.size() +
+           channel;
+  }
+};
+
+// Text attributes of an EXR or PNG, in order: program version, scene hash, frame, samples, seed, settings.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+// Writes `path` whole or not at all (beside, then renamed). EXR: linear float, values as they are; PNG: 8-bit
+// sRGB of the values times 2^exposure, clamped, with 0 for NaN. The format follows the extension. Returns an
+// error message fit for the user, or an empty string.
+std::string write(const std::string& path, const Image& image, const Metadata& metadata, double exposure = 0);
+
+// A message when `write` to that path would surely fail (unknown extension, no such directory, not writable):
+// asked before rendering starts.
+std::string check_writable(const std::string& path);
+
+struct ReadResult {
+  std::optional<Image> image{};
+  Metadata metadata{};
+  std::string error{};  // fit for the user; empty when there is an image
+};
+// Reads an EXR as it is and a PNG as the linear light of its sRGB values.
+ReadResult read(const std::string& path);
+
+}  // namespace tyndall::image

@@ -1,0 +1,67 @@
+// The one file that knows OpenImageIO, a module of its own (codec.h says why). Pictures are encoded in
+// memory, so that files.h can write them whole.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "image/codec.h"
+
+namespace tyndall::image {
+namespace {
+
+OIIO::ImageSpec spec_of(const Image& image, const Metadata& metadata, Format format) {
+  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()),
+                       format == Format::exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+  spec.channelnames = image.channels;
+  for (const auto& [name, value] : metadata) spec.attribute(name, value);
+  if (format == Format::exr) {
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "Linear");
+    // OpenImageIO would write the time of day: the same picture is to be the same bytes.
+    spec.attribute("DateTime", "");
+  } else {
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    // PNG keeps a fixed set of texts: the whole metadata goes into its description.
+    std::string description;
+    for (const auto& [name, value] : metadata) description += fmt::format("{}: {}\n", name, value);
+    spec.attribute("ImageDescription", description);
+  }
+  return spec;
+}
+
+std::string encode(const Image& image, const std::vector<std::uint8_t>& display, const Metadata& metadata,
+                   Format format, std::vector<unsigned char>& bytes) {
+  const auto output = OIIO::ImageOutput::create(format == Format::exr ? "exr" : "png");
+  if (!output) return OIIO::geterror();
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  if (!output->set_ioproxy(&memory)) return output->geterror();
+  if (!output->open("memory", spec_of(image, metadata, format))) return output->geterror();
+  const bool written = format == Format::exr ? output->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data())
+                                             : output->write_image(OIIO::TypeDesc::UINT8, display.data());
+  if (!written || !output->close()) return output->geterror();
+  return {};
+}
+
+Metadata texts_of(const OIIO::ImageSpec& spec) {
+  Metadata metadata;
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+    if (attribute.type() == OIIO::TypeDesc::STRING)
+      metadata.emplace_back(attribute.name().string(), attribute.get_string());
+  return metadata;
+}
+
+ReadResult decode(const std::string& path) {
+  const auto input = OIIO::ImageInput::open(path);
+  if (!input) return {.error = OIIO::geterror()};
+  const OIIO::ImageSpec& spec = input->spec();
+  Image image{spec.width, spec.height, spec.channelnames, {}};
+  image.pixels.resize(static_cast<std::size_t>(spec.image_pixels()) * image.channels.size());
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()))
+    return {.error = input->geterror()};
+  return {.image = std::move(image), .metadata = texts_of(spec)};
+}
+
+}  // namespace
+}  // namespace tyndall::image
+
+extern "C" const tyndall::image::Codec tyndall_codec{tyndall::image::encode, tyndall::image::decode};

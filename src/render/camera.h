@@ -1,0 +1,26 @@
+// Camera rays, in render space.
+#pragma once
+
+#include "base/sampler.h"
+#include "compile/compiled_scene.h"
+
+namespace tyndall::render {
+
+class CameraRays {
+ public:
+  explicit CameraRays(const compile::CompiledScene& world);
+
+  // The ray through pixel (x, y), counted from the top left, at (u, v) in [0, 1)² of the pixel (box filter)
+  // and (lens_u, lens_v) in [0, 1)² of the lens. Unit direction, t_max infinite.
+  compile::Ray ray(int x, int y, float u, float v, float lens_u, float lens_v) const;
+
+ private:
+  Vec3d right_, up_, back_;  // unit
+  double half_height_ = 0;   // of the picture at distance 1 (perspective) or in the world (orthographic) [m]
+  double aperture_ = 0, focus_ = 0;
+  enum class Kind : unsigned char { perspective, orthographic, spherical };
+  Kind kind_ = Kind::perspective;
+  int width_, height_;
+};
+
+}  // namespace tyndall::render

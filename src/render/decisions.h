@@ -1,0 +1,26 @@
+// Names of the random decisions of a path: one Sobol' sequence each (see base/sampler.h).
+#pragma once
+
+#include <cstdint>
+
+namespace tyndall::render {
+
+enum class Decision : std::uint8_t {
+  pixel,          // pixel 2, lens 2
+  jitter,         // of the march
+  end_or_volume,  // which continuation
+  distance,       // of the continuation: channel, t
+  direction,      // lobe, 2 of the phase function; or 2 of the surface
+  light,          // light, strategy, t, 2 of the light's surface
+  light_surface,  // the same at surfaces
+  shadow,         // offset of shadow marches
+  roulette,
+};
+
+// The sequence of a decision at one path segment. Branches: a camera ray continues both in the volume and
+// behind it.
+constexpr std::uint64_t decision(Decision d, std::uint32_t depth, std::uint32_t branch) {
+  return (std::uint64_t{depth} << 16) | (std::uint64_t{branch} << 8) | static_cast<std::uint64_t>(d);
+}
+
+}  // namespace tyndall::render

@@ -1,0 +1,164 @@
+#include "render/direct_light.h"
+
+#include <algorithm>
+
+#include "optics/light_sampling.h"
+#include "optics/phase.h"
+#include "render/equiangular.h"
+#include "render/worker.h"
+
+namespace tyndall::render {
+
+namespace {
+
+// Shadow rays end this fraction short of what they aim at; surfaces of the light itself are skipped by name,
+// so nothing hangs on the margin but other surfaces that touch the light.
+constexpr double shadow_end = 1 - 0x1p-40;
+
+ShadowRay shadow_ray(const Vec3d& from, const optics::LightSample& light, std::uint32_t index,
+                     const Rgb& contribution, std::uint32_t seed) {
+  return {{from, light.direction, light.distance * shadow_end}, index, contribution, seed};
+}
+
+}  // namespace
+
+void LightChoice::set(const compile::CompiledScene& world, const Vec3d& origin, const Vec3d& direction,
+                      double t0, double t1) {
+  weights_.resize(world.lights.size());
+  total_ = 0;
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    weights_[i] = optics::importance(world.lights[i], origin, direction, t0, t1);
+    total_ += weights_[i];
+  }
+}
+
+std::uint32_t LightChoice::sample(float& u) const {
+  double rest = u * total_;
+  std::size_t i = 0, last = 0;
+  for (; i < weights_.size(); ++i) {
+    if (weights_[i] <= 0) continue;
+    last = i;
+    if (rest < weights_[i]) break;
+    rest -= weights_[i];
+  }
+  u = std::min(static_cast<float>(std::max(rest, 0.0) / weights_[last]), one_minus_ulp_f);
+  return static_cast<std::uint32_t>(last);
+}
+
+void LightStrategies::set(const compile::CompiledScene& world, const March& march, const Rgb& throughput,
+                          Distance distance) {
+  world_ = &world;
+  march_ = &march;
+  throughput_ = throughput;
+  distance_ = distance;
+  density_.emplace(march, throughput);
+  if (march.scatters())
+    lights_.set(world, march.ray.origin, march.ray.direction, march.scattering_stretches.front().lo,
+                march.scattering_stretches.back().hi);
+}
+
+void LightStrategies::reached_stretches(std::uint32_t light, std::vector<Intervald>& out) const {
+  const optics::ReachedParts reached = optics::reached_parts(world_->lights[light], march_->ray.origin,
+                                                             march_->ray.direction, march_->ray.t_max);
+  out.clear();
+  for (const Intervald& stretch : march_->scattering_stretches)
+    for (int k = 0; k < reached.count; ++k) {
+      const Intervald part = stretch.clipped_to(reached.parts[k]);
+      if (!part.empty()) out.push_back(part);
+    }
+}
+
+// Probability of equi-angular sampling, when each of the two can or cannot be had.
+double LightStrategies::equiangular_share(bool equiangular, bool density) const {
+  if (!equiangular) return 0;
+  if (!density) return 1;
+  switch (distance_) {
+    case Distance::mis:
+      return 0.5;
+    case Distance::density:
+      return 0;
+    case Distance::equiangular:
+      return 1;
+  }
+  return 0.5;
+}
+
+void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed, const Rgb& weight,
+                             bool continues, double volume_probability, int samples, Worker& worker) {
+  float u_light = point[0];
+  const std::uint32_t index = lights_.sample(u_light);
+  const optics::Light& light = world_->lights[index];
+  const auto pivot = optics::sample_pivot(light, point[3], point[4]);
+
+  std::vector<Intervald>& stretches = worker.stretches;
+  stretches.clear();
+  if (pivot) reached_stretches(index, stretches);
+  const Equiangular equiangular(march_->ray.origin, march_->ray.direction, pivot.value_or(Vec3d{}),
+                                stretches);
+  const double share = equiangular_share(equiangular.available(), density_->available());
+  if (!equiangular.available() && !density_->available()) return;
+
+  // The strategy is chosen with the light's rescaled number, which leaves dimensions 1 and 2 for t.
+  const double t = u_light < share ? equiangular.sample(point[2]) : density_->sample(point[1], point[2]);
+  const std::uint32_t segment = march_->segment_at(t);
+  const double pdf_t = share * equiangular.pdf(t) + (1 - share) * density_->pdf(segment, t);
+  if (!(pdf_t > 0)) return;
+
+  const Vec3d x = march_->ray.origin + march_->ray.direction * t;
+  const auto drawn = optics::sample_light(light, x, pivot.value_or(Vec3d{}), point[3], point[4]);
+  if (!drawn) return;
+  worker.phase.set(*world_, *march_, segment);
+  const float m = optics::one_minus_cos(Vec3f(march_->ray.direction), Vec3f(drawn->direction));
+  const double choice = lights_.probability(index);
+  double share_of_c = 1;
+  if (continues && drawn->pdf_solid_angle > 0) {
+    const double p = choice * pdf_t * drawn->pdf_solid_angle;
+    share_of_c = balance(samples, p, volume_probability * density_->pdf(segment, t) * worker.phase.pdf(m));
+  }
+  const Rgb contribution = weight * march_->sigma_s_at(segment) * march_->transmittance_at(segment, t) *
+                           worker.phase.eval(m) * drawn->radiance_over_pdf *
+                           static_cast<float>(share_of_c / (choice * pdf_t * samples));
+  if (!is_black(contribution)) worker.shadows.add(shadow_ray(x, *drawn, index, contribution, shadow_seed));
+}
+
+double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t, const Vec3d& direction,
+                            const Vec3d& y, const Vec3d& normal, Worker& worker) const {
+  if (empty()) return 0;
+  const Vec3d x = march_->ray.origin + march_->ray.direction * t;
+  const double solid_angle = optics::pdf_light(world_->lights[light], x, direction, y, normal);
+  if (solid_angle == 0) return 0;
+  // The pivot that would lead to y: y itself on a flat light, the centre of a sphere.
+  std::vector<Intervald>& stretches = worker.stretches;
+  stretches.clear();
+  const auto any_pivot = optics::sample_pivot(world_->lights[light], 0.5f, 0.5f);
+  const bool on_surface = optics::pivot_on_surface(world_->lights[light]);
+  if (any_pivot) reached_stretches(light, stretches);
+  const Equiangular equiangular(march_->ray.origin, march_->ray.direction,
+                                on_surface ? y : any_pivot.value_or(y), stretches);
+  const double share = equiangular_share(equiangular.available(), density_->available());
+  return lights_.probability(light) * solid_angle *
+         (share * equiangular.pdf(t) + (1 - share) * density_->pdf(segment, t));
+}
+
+void sample_surface_light(const compile::CompiledScene& world, const SurfacePoint& surface,
+                          const LightChoice& lights, const SobolPoint& point, std::uint32_t shadow_seed,
+                          const Rgb& weight, bool continues, int samples, Worker& worker) {
+  float u_light = point[0];
+  const std::uint32_t index = lights.sample(u_light);
+  const optics::Light& light = world.lights[index];
+  const Vec3d& x = surface.offset_position;
+  const Vec3d pivot = optics::sample_pivot(light, point[3], point[4]).value_or(Vec3d{});
+  const auto drawn = optics::sample_light(light, x, pivot, point[3], point[4]);
+  if (!drawn) return;
+  const double cosine = dot(surface.normal, drawn->direction);
+  if (!(cosine > 0)) return;
+  const double choice = lights.probability(index);
+  double share = 1;
+  if (continues && drawn->pdf_solid_angle > 0)
+    share = balance(samples, choice * drawn->pdf_solid_angle, cosine_pdf(cosine));
+  const Rgb contribution = weight * surface.reflectance * drawn->radiance_over_pdf *
+                           static_cast<float>(cosine / pi * share / (choice * samples));
+  if (!is_black(contribution)) worker.shadows.add(shadow_ray(x, *drawn, index, contribution, shadow_seed));
+}
+
+}  // namespace tyndall::render

@@ -1,0 +1,310 @@
+#include "render/march.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "render/medium_lanes.h"
+#include "render/worker.h"
+
+namespace tyndall::render {
+
+namespace {
+
+using compile::CompiledScene;
+
+// Cuts the ray at every entry and exit and lays segments into the regions between, where some volume is.
+void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
+  m.regions.clear();
+  m.scattering_stretches.clear();
+  std::vector<double>& edges = worker.edges;
+  edges.clear();
+  for (const auto& i : m.intervals) edges.insert(edges.end(), {i.t0, i.t1});
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+
+  double wanted = 0;  // segments, before the bound
+  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
+    Region region{{edges[e], edges[e + 1]}, 0, 0, false};
+    double step = infinity;
+    bool active = false;
+    for (const auto& i : m.intervals) {
+      if (!(i.t0 <= region.t.lo && region.t.hi <= i.t1)) continue;
+      const compile::CompiledVolume& volume = world.volumes[i.volume];
+      active = true;
+      region.scatters |= world.scene.media[volume.medium].scatters();
+      if (!world.media[volume.medium].homogeneous) step = std::min(step, volume.step);
+    }
+    if (!active) continue;
+    const double segments = std::max(1.0, std::ceil(region.t.length() / step));  // step infinite: one
+    region.count = static_cast<std::uint32_t>(std::min<double>(segments, max_segments));
+    wanted += segments;
+    m.regions.push_back(region);
+  }
+  if (wanted > max_segments) {
+    ++worker.statistics.widened_marches;
+    const double shrink =
+        std::max(1.0, double{max_segments} - static_cast<double>(m.regions.size())) / wanted;
+    for (Region& r : m.regions)
+      r.count = std::max(1u, static_cast<std::uint32_t>(r.count * std::min(1.0, shrink)));
+  }
+
+  m.count = 0;
+  for (Region& r : m.regions) {
+    r.first = m.count;
+    m.count += r.count;
+    if (r.scatters) m.scattering_stretches.push_back(r.t);
+  }
+  m.t0.resize(m.count);
+  m.dt.resize(m.count);
+  for (const Region& r : m.regions) {
+    const double dt = r.t.length() / r.count;
+    for (std::uint32_t k = 0; k < r.count; ++k) {
+      m.t0[r.first + k] = r.t.lo + k * dt;
+      m.dt[r.first + k] = dt;
+    }
+  }
+}
+
+// The segments of each volume's stay, and room for the outputs of its program.
+void lay_blocks(const CompiledScene& world, March& m) {
+  m.blocks.clear();
+  std::size_t floats = 0;
+  for (const auto& i : m.intervals) {
+    Block block;
+    block.volume = i.volume;
+    block.rows = floats;
+    for (const Region& r : m.regions) {
+      if (!(i.t0 <= r.t.lo && r.t.hi <= i.t1)) continue;
+      if (block.count == 0) block.first = r.first;
+      block.count = r.first + r.count - block.first;
+    }
+    if (block.count == 0) continue;
+    const std::uint32_t medium = world.volumes[i.volume].medium;
+    block.row_length = world.media[medium].homogeneous ? 1 : block.count;
+    floats += block.row_length * world.scene.media[medium].full.outputs.size();
+    m.blocks.push_back(block);
+  }
+  if (m.pool.size() < floats) m.pool.resize(floats);
+}
+
+// Runs the programs: one batch a volume, over all the segments of its stay.
+void evaluate_blocks(const CompiledScene& world, std::uint32_t seed, Worker& worker, March& m) {
+  for (const Block& b : m.blocks) {
+    const compile::CompiledVolume& volume = world.volumes[b.volume];
+    const vm::Program& program = world.scene.media[volume.medium].full;
+    if (program.constants.size() == program.operand_count()) {  // nothing to run
+      for (std::size_t k = 0; k < program.outputs.size(); ++k)
+        m.pool[b.rows + k] = program.constants[program.outputs[k]];
+      continue;
+    }
+    MediumLanes lanes(world, volume, program, worker);
+    lanes.reserve(b.row_length);
+    if (b.row_length > 1 || !world.media[volume.medium].homogeneous)
+      lanes.set(m.ray, 0, b.row_length, [&](std::size_t k) {
+        const auto s = static_cast<std::uint32_t>(b.first + k);
+        return m.t0[s] + jitter(seed, s) * m.dt[s];
+      });
+    worker.outputs.clear();
+    for (std::size_t k = 0; k < program.outputs.size(); ++k)
+      worker.outputs.push_back(m.pool.data() + b.rows + k * b.row_length);
+    lanes.run(b.row_length, worker.outputs);
+    for (std::size_t k = 0; k < worker.outputs.size(); ++k)
+      clamp_bad_values(worker.outputs[k], b.row_length, world.media[volume.medium].may_be_negative[k],
+                       volume.medium, k, worker);
+  }
+}
+
+// Adds one output of a block to a row of segments.
+void add_output(const March& m, const Block& b, std::size_t output, std::vector<float>& row) {
+  const float* from = m.pool.data() + b.rows + output * b.row_length;
+  float* to = row.data() + b.first;
+  if (b.row_length == 1)
+    for (std::uint32_t k = 0; k < b.count; ++k) to[k] += from[0];
+  else
+    for (std::uint32_t k = 0; k < b.count; ++k) to[k] += from[k];
+}
+
+// Coefficients add where volumes overlap.
+void add_coefficients(const CompiledScene& world, March& m) {
+  const bool emission = world.features.medium_emission;
+  for (int c = 0; c < m.channels; ++c) {
+    m.sigma_s[c].assign(m.count, 0.0f);
+    if (emission) m.emission[c].assign(m.count, 0.0f);
+  }
+  for (int c = 0; c < m.extinction_channels; ++c) m.sigma_t[c].assign(m.count, 0.0f);
+  for (const Block& b : m.blocks) {
+    const scene::Medium& medium = world.scene.media[world.volumes[b.volume].medium];
+    for (int c = 0; c < m.channels; ++c) {
+      add_output(m, b, medium.sigma_s[c], m.sigma_s[c]);
+      if (medium.emission) add_output(m, b, (*medium.emission)[c], m.emission[c]);
+    }
+    for (int c = 0; c < m.extinction_channels; ++c) add_output(m, b, medium.sigma_t[c], m.sigma_t[c]);
+  }
+}
+
+// Transmittance at every segment's start, and ∫ T over every segment (into `reach`), each exact for constant
+// coefficients.
+void accumulate_transmittance(const std::vector<float>& sigma_t, const March& m,
+                              std::vector<double>& transmittance, std::vector<double>& reach) {
+  transmittance.resize(m.count + 1);
+  reach.resize(m.count);
+  double t = 1;
+  for (std::uint32_t i = 0; i < m.count; ++i) {
+    transmittance[i] = t;
+    const double sigma = sigma_t[i], depth = sigma * m.dt[i];
+    reach[i] = t * m.dt[i];
+    if (depth == 0) continue;
+    reach[i] *= exp_average(depth);
+    // T (1 - (1 - e^-depth)) keeps 1 - T and the sum of sigma * reach equal to rounding; where it would
+    // cancel, T e^-depth.
+    t = depth < 1 ? t - sigma * reach[i] : t * std::exp(-depth);
+  }
+  transmittance[m.count] = t;
+}
+
+// Running sums from the ray's start.
+void accumulate(const CompiledScene& world, Worker& worker, March& m) {
+  Vec3d emitted;
+  for (int c = 0; c < m.channels; ++c) {
+    if (c < m.extinction_channels)
+      accumulate_transmittance(m.sigma_t[c], m, m.transmittance[c], worker.reach);
+    m.scattered[c].resize(m.count + 1);
+    double s = 0;
+    for (std::uint32_t i = 0; i < m.count; ++i) {
+      m.scattered[c][i] = s;
+      s += m.sigma_s[c][i] * worker.reach[i];
+    }
+    m.scattered[c][m.count] = s;
+    if (world.features.medium_emission)
+      for (std::uint32_t i = 0; i < m.count; ++i) emitted[c] += m.emission[c][i] * worker.reach[i];
+  }
+  m.emitted = m.channels == 1 ? Rgb(static_cast<float>(emitted.x)) : Rgb(emitted);
+}
+
+}  // namespace
+
+void march(const CompiledScene& world, const compile::Ray& ray, compile::RayKind kind, std::uint32_t seed,
+           Worker& worker, March& out) {
+  out.ray = ray;
+  out.channels = world.features.chromatic ? 3 : 1;
+  out.extinction_channels = world.features.chromatic_extinction ? 3 : 1;
+  out.intervals.clear();
+  if (world.features.volumes) world.volume_intervals(ray, kind, out.intervals);
+  lay_segments(world, worker, out);
+  lay_blocks(world, out);
+  evaluate_blocks(world, seed, worker, out);
+  add_coefficients(world, out);
+  accumulate(world, worker, out);
+  worker.statistics.marches += out.count > 0;
+  worker.statistics.segments += out.count;
+}
+
+std::uint32_t March::segment_at(double t) const {
+  const auto after = std::upper_bound(t0.begin(), t0.begin() + count, t);
+  return after == t0.begin() ? 0 : static_cast<std::uint32_t>(after - t0.begin() - 1);
+}
+
+Rgb March::transmittance_at(std::uint32_t i, double t) const {
+  Vec3d out;
+  for (int c = 0; c < extinction_channels; ++c)
+    out[c] = transmittance[c][i] * std::exp(-double{sigma_t[c][i]} * std::clamp(t - t0[i], 0.0, dt[i]));
+  return extinction_channels == 1 ? Rgb(static_cast<float>(out.x)) : Rgb(out);
+}
+
+DensityDistribution::DensityDistribution(const March& march, const Rgb& throughput) : march_(march) {
+  if (march.channels == 1) {
+    total_ = march.count > 0 ? march.scattered[0][march.count] : 0;
+    share_[0] = 1;
+    return;
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    share_[c] = march.count > 0 ? std::max(0.0f, throughput[c]) * march.scattered[c][march.count] : 0;
+    total_ += share_[c];
+  }
+  if (total_ > 0)
+    for (double& share : share_) share /= total_;
+}
+
+double DensityDistribution::sample(float u_channel, float u) const {
+  int c = 0;
+  double rest = u_channel;
+  while (c + 1 < march_.channels && rest >= share_[c]) rest -= share_[c++];
+  while (share_[c] == 0 && c > 0) --c;  // rounding may leave the last channel with nothing to give
+  const std::vector<double>& scattered = march_.scattered[c];
+  const double target = u * scattered[march_.count];
+  const auto after = std::upper_bound(scattered.begin(), scattered.begin() + march_.count + 1, target);
+  const auto i = static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(after - scattered.begin() - 1, 0));
+  const std::uint32_t segment = std::min(i, march_.count - 1);
+  const double mass = scattered[segment + 1] - scattered[segment];
+  const double part = mass > 0 ? std::clamp((target - scattered[segment]) / mass, 0.0, 1.0) : 0.0;
+  // Invert 1 - e^(-sigma x) = part (1 - e^(-sigma dt)); uniform in the limit of no extinction.
+  const double sigma = march_.sigma_t[march_.extinction_row(c)][segment], depth = sigma * march_.dt[segment];
+  const double x = depth < 1e-6 ? part * march_.dt[segment] : -std::log1p(part * std::expm1(-depth)) / sigma;
+  return march_.t0[segment] + std::min(x, march_.dt[segment]);
+}
+
+double DensityDistribution::pdf(std::uint32_t i, double t) const {
+  if (!available()) return 0;
+  const double x = std::clamp(t - march_.t0[i], 0.0, march_.dt[i]);
+  double pdf = 0, transmittance = 0;
+  for (int c = 0; c < march_.channels; ++c) {
+    if (c < march_.extinction_channels)
+      transmittance = march_.transmittance[c][i] * std::exp(-double{march_.sigma_t[c][i]} * x);
+    if (share_[c] > 0)
+      pdf += share_[c] * march_.sigma_s[c][i] * transmittance / march_.scattered[c][march_.count];
+  }
+  return pdf;
+}
+
+void PhaseMixture::set(const CompiledScene& world, const March& m, std::uint32_t segment) {
+  lobes_.clear();
+  Rgb total;
+  for (const Block& b : m.blocks) {
+    if (!b.holds(segment)) continue;
+    const scene::Medium& medium = world.scene.media[world.volumes[b.volume].medium];
+    const auto output = [&](std::uint8_t k) { return m.output(b, k, segment); };
+    const auto number = [&](const scene::PhaseLobe::Number& n) {
+      return n.output ? output(*n.output) : n.value;
+    };
+    const Rgb sigma_s{output(medium.sigma_s[0]), output(medium.sigma_s[1]), output(medium.sigma_s[2])};
+    for (const scene::PhaseLobe& lobe : medium.phase) {
+      Lobe out;
+      out.phase.kind = lobe.kind;
+      for (std::size_t k = 0; k < lobe.parameters.size(); ++k)
+        out.phase.parameters[k] = number(lobe.parameters[k]);
+      out.share = sigma_s * std::max(0.0f, number(lobe.weight));
+      total += out.share;
+      lobes_.push_back(out);
+    }
+  }
+  float sum = 0;
+  for (Lobe& lobe : lobes_) {
+    for (std::size_t c = 0; c < 3; ++c) lobe.share[c] = total[c] > 0 ? lobe.share[c] / total[c] : 0.0f;
+    lobe.probability = (lobe.share.x + lobe.share.y + lobe.share.z) / 3;
+    sum += lobe.probability;
+  }
+  if (sum > 0)
+    for (Lobe& lobe : lobes_) lobe.probability /= sum;
+}
+
+Rgb PhaseMixture::eval(float one_minus_cos) const {
+  Rgb sum;
+  for (const Lobe& lobe : lobes_) sum += lobe.share * lobe.phase.eval(one_minus_cos);
+  return sum;
+}
+
+float PhaseMixture::pdf(float one_minus_cos) const {
+  float sum = 0;
+  for (const Lobe& lobe : lobes_) sum += lobe.probability * lobe.phase.eval(one_minus_cos);
+  return sum;
+}
+
+float PhaseMixture::sample(float u_lobe, float u0, float u1) const {
+  CHECK(!lobes_.empty());
+  std::size_t i = 0;
+  while (i + 1 < lobes_.size() && u_lobe >= lobes_[i].probability) u_lobe -= lobes_[i++].probability;
+  return lobes_[i].phase.sample(u0, u1);
+}
+
+}  // namespace tyndall::render

@@ -1,0 +1,134 @@
+// Decoupled marching (Kulla and Fajardo, EGSR 2012, section 3): one ray's volumes, split into segments,
+// evaluated as one batch. Inside a segment the medium is constant and every integral exact; light can then be
+// taken at any t, by any density.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/interval.h"
+#include "base/numerics.h"
+#include "base/vec.h"
+#include "compile/compiled_scene.h"
+#include "optics/phase.h"
+
+namespace tyndall::render {
+
+struct Worker;
+
+// A stretch of the ray in which the same volumes are active; segments [first, first + count).
+struct Region {
+  Intervald t;
+  std::uint32_t first = 0, count = 0;
+  bool scatters = false;
+};
+
+// One volume's stay over segments [first, first + count): the outputs of its medium's program, row by row in
+// March::pool. A homogeneous medium has rows of one value.
+struct Block {
+  std::uint32_t volume = 0, first = 0, count = 0;
+  std::size_t rows = 0;          // where the first row starts
+  std::uint32_t row_length = 0;  // count, or 1
+
+  bool holds(std::uint32_t segment) const { return first <= segment && segment < first + count; }
+};
+
+// Segments of one ray, structure of arrays; a colour quantity has one row when no medium of the scene is
+// chromatic. Edges increase, transmittance never rises.
+struct March {
+  compile::Ray ray;
+  int channels = 1, extinction_channels = 1;
+  std::uint32_t count = 0;
+  std::vector<double> t0, dt;                                    // [m]
+  std::array<std::vector<float>, 3> sigma_s, sigma_t, emission;  // [1/m], [1/m], [W/m³/sr]
+  std::array<std::vector<double>, 3>
+      transmittance;                             // at the start of each segment; [count]: at the ray's end
+  std::array<std::vector<double>, 3> scattered;  // ∫ sigma_s T from the ray's start to each segment's start
+  Rgb emitted;                                   // ∫ emission T over the whole ray
+  std::vector<Region> regions;
+  std::vector<Block> blocks;
+  std::vector<float> pool;
+  std::vector<Intervald> scattering_stretches;  // of the regions that scatter
+  std::vector<compile::VolumeInterval> intervals;
+
+  bool scatters() const { return !scattering_stretches.empty(); }
+  Rgb end_transmittance() const { return rgb(transmittance, extinction_channels, count); }
+  Rgb total_scattered() const { return rgb(scattered, channels, count); }
+  // The row of extinction and transmittance that serves channel c.
+  int extinction_row(int c) const { return extinction_channels == 1 ? 0 : c; }
+  // Output k of a block at a segment that it holds.
+  float output(const Block& block, std::size_t k, std::uint32_t segment) const {
+    return pool[block.rows + k * block.row_length + (block.row_length == 1 ? 0 : segment - block.first)];
+  }
+  // The segment that holds t (of a region; the nearest one for a t in a gap by rounding).
+  std::uint32_t segment_at(double t) const;
+  // Transmittance from the ray's start to t, inside segment i.
+  Rgb transmittance_at(std::uint32_t i, double t) const;
+  Rgb sigma_s_at(std::uint32_t i) const {
+    return channels == 1 ? Rgb(sigma_s[0][i]) : Rgb{sigma_s[0][i], sigma_s[1][i], sigma_s[2][i]};
+  }
+
+ private:
+  static Rgb rgb(const std::array<std::vector<double>, 3>& rows, int row_count, std::uint32_t i) {
+    if (row_count == 1) return Rgb(static_cast<float>(rows[0][i]));
+    return Rgb(Vec3d{rows[0][i], rows[1][i], rows[2][i]});
+  }
+};
+
+// At most this many segments a march; a longer ray gets wider ones (counted in the statistics).
+inline constexpr std::uint32_t max_segments = 4096;
+
+// Where in its segment sample i of a march is taken, in (0, 1): random for even i, mirrored for the odd i
+// after it. Each place is uniform (so the optical depth's mean is exact), what is linear over a pair cancels,
+// and no period of the density is met at one phase only (docs/decisions/0002-march-jitter.md). `seed` names
+// the march.
+inline double jitter(std::uint32_t seed, std::uint32_t i) {
+  std::uint32_t h = seed + (i >> 1) * 0x9e3779b9u;
+  h = (h ^ (h >> 16)) * 0x7feb352du;
+  h = (h ^ (h >> 15)) * 0x846ca68bu;
+  h ^= h >> 16;
+  const double place = (h + 0.5) * 0x1p-32;
+  return i & 1 ? 1 - place : place;
+}
+
+// Marches the ray over [0, ray.t_max): intervals, segments, programs, running sums.
+void march(const compile::CompiledScene& world, const compile::Ray& ray, compile::RayKind kind,
+           std::uint32_t seed, Worker& worker, March& out);
+
+// Distances distributed as scattered radiance: per channel discrete over segments and exponential inside,
+// channels mixed in proportion to throughput times ∫ sigma_s T (transport §3, "Density").
+class DensityDistribution {
+ public:
+  DensityDistribution(const March& march, const Rgb& throughput);
+  bool available() const { return total_ > 0; }
+  double sample(float u_channel, float u) const;
+  // Per metre, at t of segment i.
+  double pdf(std::uint32_t i, double t) const;
+
+ private:
+  const March& march_;
+  std::array<double, 3> share_{};  // of the channels; sums to 1
+  double total_ = 0;
+};
+
+// The phase function at one segment: lobes of all active media, weighted by their scattering.
+class PhaseMixture {
+ public:
+  void set(const compile::CompiledScene& world, const March& march, std::uint32_t segment);
+  // Colour because media of different colours may scatter differently: ∑ (sigma_s share) * lobe [1/sr].
+  Rgb eval(float one_minus_cos) const;
+  float pdf(float one_minus_cos) const;
+  // Draws 1 - cos.
+  float sample(float u_lobe, float u0, float u1) const;
+
+ private:
+  struct Lobe {
+    optics::Phase phase;
+    Rgb share;  // of sigma_s, per channel; sums to 1 over the lobes
+    float probability;
+  };
+  std::vector<Lobe> lobes_;
+};
+
+}  // namespace tyndall::render

@@ -1,0 +1,52 @@
+// Points inside a volume as lanes of its medium's programs.
+#pragma once
+
+#include <cstddef>
+
+#include "compile/compiled_scene.h"
+#include "render/worker.h"
+#include "vm/program.h"
+
+namespace tyndall::render {
+
+// The inputs that `program` reads, for points of rays through a volume.
+class MediumLanes {
+ public:
+  MediumLanes(const compile::CompiledScene& world, const compile::CompiledVolume& volume,
+              const vm::Program& program, Worker& worker);
+
+  // Makes room for `capacity` lanes.
+  void reserve(std::size_t capacity);
+  // Sets lanes [first, first + count) to the points of the ray at t(0), t(1), … [m].
+  template <class T>
+  void set(const compile::Ray& ray, std::size_t first, std::size_t count, T&& t) {
+    const auto put = [&](vm::Input input, const Vec3d& origin, const Vec3d& direction) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        float* lanes = worker_.inputs[static_cast<std::size_t>(input) + axis].data() + first;
+        const double o = origin[axis], d = direction[axis];
+        for (std::size_t i = 0; i < count; ++i) lanes[i] = static_cast<float>(o + d * t(i));
+      }
+    };
+    if (needs_p_)
+      put(vm::Input::p_x, volume_.medium_from_render.point(ray.origin),
+          volume_.medium_from_render.vector(ray.direction));
+    if (needs_world_) put(vm::Input::P_x, ray.origin + world_.origin, ray.direction);
+  }
+  // Runs the program over `lanes` lanes; output k goes to outputs[k].
+  void run(std::size_t lanes, std::span<float* const> outputs);
+
+ private:
+  const compile::CompiledScene& world_;
+  const compile::CompiledVolume& volume_;
+  const vm::Program& program_;
+  Worker& worker_;
+  bool needs_p_ = false, needs_world_ = false;
+  float time_ = 0;
+};
+
+// Replaces what a shader must not give: not-finite values (by 0; +infinity by `largest_value`) and, unless
+// `may_be_negative`, negative ones (by 0). Counts them.
+void clamp_bad_values(float* values, std::size_t count, bool may_be_negative, std::uint32_t medium,
+                      std::size_t output, Worker& worker);
+
+}  // namespace tyndall::render

@@ -1,0 +1,292 @@
+#include "render/path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/numerics.h"
+#include "optics/light_sampling.h"
+#include "render/decisions.h"
+
+namespace tyndall::render {
+
+namespace {
+
+using compile::CompiledScene;
+using compile::Ray;
+using compile::RayKind;
+
+// Where a ray comes from, as far as the MIS weight of what it meets needs to know.
+struct Origin {
+  enum class Kind : std::uint8_t { camera, volume, surface } kind = Kind::camera;
+  Vec3d position;
+  double pdf = 0;                               // volume: per metre and steradian; surface: per steradian
+  const LightStrategies* strategies = nullptr;  // volume: of the ray that was scattered
+  std::uint32_t segment = 0;
+  double t = 0;
+};
+
+// A ray to be traced, with all that was decided before it.
+struct PathState {
+  Ray ray;
+  Rgb throughput{1};
+  std::uint32_t depth = 0;  // scatterings so far
+  std::uint32_t branch = 0;
+  Origin origin;
+};
+
+class PathTracer {
+ public:
+  PathTracer(const CompiledScene& world, const PathSettings& settings, const Sampler& sampler, Worker& worker,
+             std::string* trace)
+      : world_(world), settings_(settings), sampler_(sampler), worker_(worker), trace_(trace) {}
+
+  Rgb run(const Ray& camera_ray) {
+    PathState state;
+    state.ray = camera_ray;
+    follow(state);
+    if (behind_) {
+      PathState surface = *behind_;
+      behind_.reset();
+      follow(surface);
+    }
+    return radiance_;
+  }
+
+ private:
+  // Follows one path until it ends; a camera ray that meets both medium and surface leaves the surface's path
+  // in behind_.
+  void follow(PathState& state) {
+    for (int scratch = 0;; scratch ^= 1)
+      if (!step(state, worker_.marches[scratch], worker_.strategies[scratch])) return;
+  }
+
+  // One ray: what it gathers, the direct light along it, and the next ray. False when the path ends.
+  bool step(PathState& s, March& m, LightStrategies& strategies) {
+    ++worker_.statistics.rays;
+    const RayKind kind = s.origin.kind == Origin::Kind::camera ? RayKind::camera : RayKind::scattered;
+    const auto hit = world_.closest_hit(s.ray, kind);
+    s.ray.t_max = hit ? hit->t : infinity;
+    march(world_, s.ray, kind, sampler_.bits(id(Decision::jitter, s), 0), worker_, m);
+    if (trace_)
+      say("{}depth {} ray from ({:.6g}, {:.6g}, {:.6g}) along ({:.6g}, {:.6g}, {:.6g}): {} segments, "
+          "transmittance {:.6g}, throughput {:.6g}\n",
+          s.branch ? "  behind: " : "", s.depth, s.ray.origin.x + world_.origin.x,
+          s.ray.origin.y + world_.origin.y, s.ray.origin.z + world_.origin.z, s.ray.direction.x,
+          s.ray.direction.y, s.ray.direction.z, m.count, luminance(m.end_transmittance()),
+          luminance(s.throughput));
+
+    add(s.throughput * m.emitted, "emission of media");
+    const Rgb at_end = s.throughput * m.end_transmittance();
+    std::optional<SurfacePoint> surface;
+    if (!hit) {
+      gather_infinity(s, at_end);
+    } else if (hit->light != compile::no_index) {
+      gather_light(s, *hit, at_end);
+    } else {
+      surface = evaluate_surface(world_, *hit, s.ray.direction, worker_);
+      add(at_end * surface->emission, "emission of a surface");
+    }
+
+    if (s.depth > static_cast<std::uint32_t>(settings_.bounces)) {
+      worker_.statistics.cut_paths += m.scatters() || surface;
+      worker_.statistics.cut_throughput += max_component(s.throughput * m.total_scattered() +
+                                                         (surface ? at_end * surface->reflectance : Rgb{}));
+      return false;
+    }
+    const bool continues =
+        s.depth < static_cast<std::uint32_t>(settings_.bounces) || settings_.gathers_after_last;
+    return scatter(s, m, strategies, surface, at_end, continues);
+  }
+
+  // Direct light in the volume and on the surface, and the choice of the next ray.
+  bool scatter(PathState& s, const March& m, LightStrategies& strategies,
+               const std::optional<SurfacePoint>& surface, const Rgb& at_end, bool continues) {
+    const Rgb in_volume = s.throughput * m.total_scattered();
+    const Rgb on_surface = surface ? at_end * surface->reflectance : Rgb{};
+    const double volume_mass = std::max(0.0f, luminance(in_volume)),
+                 surface_mass = std::max(0.0f, luminance(on_surface));
+    if (!(volume_mass + surface_mass > 0)) return false;
+    const bool both = s.origin.kind == Origin::Kind::camera;  // camera rays follow both, deeper ones choose
+    const double volume_probability = both ? (volume_mass > 0) : volume_mass / (volume_mass + surface_mass);
+    strategies.set(world_, m, s.throughput, settings_.distance);
+    if (volume_mass > 0) light_volume(s, strategies, continues, volume_probability);
+
+    const bool to_surface =
+        surface_mass > 0 && (both || point(Decision::end_or_volume, s, 1)[0] >= volume_probability);
+    if (to_surface) {
+      PathState next = s;
+      next.throughput = at_end * static_cast<float>(both ? 1 : 1 / (1 - volume_probability));
+      light_surface(next, *surface, continues);
+      const bool goes_on = continues && continue_from_surface(next, *surface);
+      if (!both || volume_mass <= 0) {
+        s = next;
+        return goes_on;
+      }
+      if (goes_on) behind_ = next;
+    }
+    return volume_mass > 0 && continues && continue_in_volume(s, m, strategies, volume_probability);
+  }
+
+  void light_volume(const PathState& s, LightStrategies& strategies, bool continues,
+                    double volume_probability) {
+    if (strategies.empty()) return;
+    const int samples = s.depth == 0 ? settings_.light_samples : 1;
+    for (int k = 0; k < samples; ++k) {
+      const std::uint32_t shadow_seed = sampler_.bits(id(Decision::shadow, s), k);
+      strategies.sample(many(Decision::light, s, k, samples), shadow_seed, s.throughput, continues,
+                        volume_probability, samples, worker_);
+    }
+    add(worker_.shadows.trace(world_, worker_), "direct light in media");
+  }
+
+  void light_surface(const PathState& s, const SurfacePoint& surface, bool continues) {
+    LightChoice& lights = worker_.surface_lights;
+    lights.set(world_, surface.position, surface.normal, 0, 0);
+    if (lights.empty()) return;
+    const int samples = s.depth == 0 ? settings_.light_samples : 1;
+    for (int k = 0; k < samples; ++k) {
+      const std::uint32_t shadow_seed = sampler_.bits(id(Decision::shadow, s), 0x10000 + k);
+      sample_surface_light(world_, surface, lights, many(Decision::light_surface, s, k, samples), shadow_seed,
+                           s.throughput, continues, samples, worker_);
+    }
+    add(worker_.shadows.trace(world_, worker_), "direct light on a surface");
+  }
+
+  bool continue_in_volume(PathState& s, const March& m, const LightStrategies& strategies,
+                          double volume_probability) {
+    const SobolPoint u = point(Decision::distance, s, 2), v = point(Decision::direction, s, 4);
+    const DensityDistribution& density = strategies.density();
+    const double t = density.sample(u[0], u[1]);
+    const std::uint32_t segment = m.segment_at(t);
+    const double pdf_t = density.pdf(segment, t) * volume_probability;
+    worker_.phase.set(world_, m, segment);
+    const float cosine_complement = worker_.phase.sample(v[0], v[1], v[2]);
+    const float pdf_phase = worker_.phase.pdf(cosine_complement);
+    if (!(pdf_t > 0 && pdf_phase > 0)) return false;
+
+    s.throughput *= m.sigma_s_at(segment) * m.transmittance_at(segment, t) *
+                    worker_.phase.eval(cosine_complement) * static_cast<float>(1 / (pdf_t * pdf_phase));
+    const Vec3d x = s.ray.origin + s.ray.direction * t;
+    const Vec3f w =
+        optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[3]);
+    s.origin = {Origin::Kind::volume, x, pdf_t * pdf_phase, &strategies, segment, t};
+    s.ray = {x, normalize(Vec3d(w)), infinity};
+    return next_depth(s);
+  }
+
+  bool continue_from_surface(PathState& s, const SurfacePoint& surface) {
+    const SobolPoint v = point(Decision::direction, s, 2);
+    const Vec3d w = sample_cosine(surface.normal, v[0], v[1]);
+    s.throughput *= surface.reflectance;  // (reflectance / pi) cosine / pdf
+    s.origin = {
+        Origin::Kind::surface, surface.offset_position, cosine_pdf(dot(surface.normal, w)), nullptr, 0, 0};
+    s.ray = {surface.offset_position, w, infinity};
+    s.branch = s.branch || s.depth == 0;
+    return next_depth(s);
+  }
+
+  // Russian roulette on what the path still carries.
+  bool next_depth(PathState& s) {
+    ++s.depth;
+    const float carried =
+        max_component(Rgb{std::abs(s.throughput.x), std::abs(s.throughput.y), std::abs(s.throughput.z)});
+    if (!(carried > 0)) return false;
+    if (s.depth < first_roulette) return true;
+    const float survival = std::min(1.0f, carried);
+    if (sampler_.independent(id(Decision::roulette, s), 0) >= survival) return false;
+    s.throughput /= survival;
+    return true;
+  }
+
+  void gather_infinity(const PathState& s, const Rgb& at_end) {
+    if (!world_.features.environment && !world_.features.distant_discs) return;
+    for (std::uint32_t i = 0; i < world_.lights.size(); ++i) {
+      const Rgb radiance = optics::radiance_from_infinity(world_.lights[i], s.ray.direction);
+      if (!is_black(radiance)) add(at_end * radiance * weight(s, i, {}, {}), "a light at infinity");
+    }
+  }
+
+  void gather_light(const PathState& s, const compile::SurfaceHit& hit, const Rgb& at_end) {
+    const Rgb radiance = optics::emitted(world_.lights[hit.light], s.ray.direction, hit.normal);
+    if (!is_black(radiance))
+      add(at_end * radiance * weight(s, hit.light, hit.position, hit.normal), "a light met");
+  }
+
+  // MIS weight of meeting a light by the path's own continuation, against sampling it directly.
+  float weight(const PathState& s, std::uint32_t light, const Vec3d& y, const Vec3d& normal) {
+    // The path was at depth - 1 when it was scattered towards this light.
+    const int samples = s.depth == 1 ? settings_.light_samples : 1;
+    switch (s.origin.kind) {
+      case Origin::Kind::camera:
+        return 1;
+      case Origin::Kind::volume: {
+        const double p = s.origin.strategies->pdf(light, s.origin.segment, s.origin.t, s.ray.direction, y,
+                                                  normal, worker_);
+        return static_cast<float>(1 - balance(samples, p, s.origin.pdf));
+      }
+      case Origin::Kind::surface: {
+        const double solid_angle =
+            optics::pdf_light(world_.lights[light], s.origin.position, s.ray.direction, y, normal);
+        if (solid_angle == 0) return 1;
+        worker_.surface_lights.set(world_, s.origin.position, s.ray.direction, 0, 0);
+        const double p = worker_.surface_lights.probability(light) * solid_angle;
+        return static_cast<float>(1 - balance(samples, p, s.origin.pdf));
+      }
+    }
+    return 1;
+  }
+
+  // Until this many scatterings no roulette. In the three first scenes 5 was 6-55 % more efficient than 1,
+  // 2-18 % than 2, 15-44 % than none (docs/decisions/0004-lights-and-ends.md).
+  static constexpr std::uint32_t first_roulette = 5;
+
+  std::uint64_t id(Decision d, const PathState& s) const { return decision(d, s.depth, s.branch); }
+  SobolPoint point(Decision d, const PathState& s, int dimensions) const {
+    return sampler_.point(id(d, s), dimensions);
+  }
+  SobolPoint many(Decision d, const PathState& s, int k, int count) const {
+    return sampler_.point(id(d, s), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(count));
+  }
+  void add(const Rgb& radiance, std::string_view what) {
+    radiance_ += radiance;
+    if (trace_ && !is_black(radiance))
+      say("  + ({:.6g}, {:.6g}, {:.6g}) {}\n", radiance.x, radiance.y, radiance.z, what);
+  }
+  template <class... Args>
+  void say(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(*trace_), format, std::forward<Args>(args)...);
+  }
+
+  const CompiledScene& world_;
+  const PathSettings& settings_;
+  const Sampler& sampler_;
+  Worker& worker_;
+  std::string* trace_;
+  Rgb radiance_;
+  std::optional<PathState> behind_;
+};
+
+}  // namespace
+
+PathSettings path_settings(const CompiledScene& world, const RenderOptions& options) {
+  const compile::Features& f = world.features;
+  PathSettings settings;
+  settings.distance = options.distance;
+  settings.light_samples = world.scene.settings.light_samples;
+  settings.bounces = world.scene.settings.bounces;
+  settings.gathers_after_last =
+      f.area_lights || f.distant_discs || f.environment || f.medium_emission || f.surface_emission;
+  return settings;
+}
+
+Rgb trace_path(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings, int x,
+               int y, const Sampler& sampler, Worker& worker, std::string* trace) {
+  ++worker.statistics.samples;
+  const SobolPoint u = sampler.point(decision(Decision::pixel, 0, 0), 4);
+  return PathTracer(world, settings, sampler, worker, trace).run(camera.ray(x, y, u[0], u[1], u[2], u[3]));
+}
+
+}  // namespace tyndall::render

@@ -1,0 +1,81 @@
+// The picture: CompiledScene to Film.
+#pragma once
+
+#include <atomic>
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/source.h"
+#include "compile/compiled_scene.h"
+#include "render/film.h"
+
+namespace tyndall::render {
+
+// How a distance along the ray is drawn for direct light.
+enum class Distance : std::uint8_t { mis, density, equiangular };
+
+struct RenderOptions {
+  int threads = 0;  // 0: all
+  Distance distance = Distance::mis;
+  // Half-open pixel rectangle and sample range; defaults: everything.
+  struct Crop {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  };
+  std::optional<Crop> crop;
+  int first_sample = 0;
+  std::optional<int> sample_count;          // default: the scene's
+  const std::atomic<bool>* stop = nullptr;  // set to end early with what there is
+};
+
+// Called at most a few times a second from one thread at a time; `fraction` in [0, 1].
+struct Progress {
+  std::function<void(double fraction, double samples_per_second)> report;
+};
+
+struct BadValue {  // of a shader: what, how often, where
+  enum class Kind : std::uint8_t { not_finite, negative } kind{};
+  Span span;           // the output's statement
+  std::string shader;  // name of the medium or material
+  std::uint64_t count = 0;
+};
+
+// Counters, summed over the threads at the end.
+struct Statistics {
+  std::uint64_t samples = 0, rays = 0, shadow_rays = 0, marches = 0, segments = 0;
+  std::uint64_t vm_runs = 0, lanes_issued = 0, lanes_used = 0, vm_instructions = 0;
+  std::uint64_t bad_samples = 0;
+  std::uint64_t widened_marches = 0;  // marches whose segments were widened to fit the bound
+  std::uint64_t cut_paths = 0;        // paths ended by `bounces` while they still carried light
+  double cut_throughput = 0;          // mean over camera samples of the throughput so cut
+  struct BadSample {
+    std::uint64_t sample = 0;
+    int y = 0, x = 0;
+    auto operator<=>(const BadSample&) const = default;
+  };
+  std::optional<BadSample> first_bad_sample;  // the least: the same for any thread count
+  std::vector<BadValue> bad_values;
+  double seconds = 0;
+  bool stopped = false;
+};
+
+struct RenderResult {
+  Film film;
+  Statistics statistics;
+};
+
+RenderResult render(const compile::CompiledScene& world, const RenderOptions& options,
+                    const Progress& progress = {});
+
+// One sample of one pixel, with what happened on its path as text lines: `--pixel x,y --sample N`.
+struct Replay {
+  Rgb radiance;
+  std::string trace;
+};
+Replay replay(const compile::CompiledScene& world, const RenderOptions& options, int x, int y,
+              std::uint64_t sample);
+
+}  // namespace tyndall::render

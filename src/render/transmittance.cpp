@@ -1,0 +1,115 @@
+#include "render/transmittance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/numerics.h"
+#include "render/medium_lanes.h"
+#include "render/worker.h"
+
+namespace tyndall::render {
+
+namespace {
+
+// Segments for a stay of `length` metres at a step; counts the stays that had to be widened.
+std::uint32_t segments_for(double length, double step, Worker& worker) {
+  const double wanted = std::ceil(length / step);
+  if (wanted <= max_segments) return std::max(static_cast<std::uint32_t>(wanted), 1u);
+  ++worker.statistics.widened_marches;
+  return max_segments;
+}
+
+}  // namespace
+
+Rgb ShadowBatch::trace(const compile::CompiledScene& world, Worker& worker) {
+  depth_.assign(rays_.size(), Vec3d{});
+  stays_.clear();
+  for (std::uint32_t r = 0; r < rays_.size(); ++r) {
+    ++worker.statistics.shadow_rays;
+    if (world.occluded(rays_[r].ray, rays_[r].target_light))
+      rays_[r].contribution = {};
+    else if (world.features.volumes)
+      collect_stays(world, r, worker);
+  }
+  march_stays(world, worker);
+
+  Rgb sum;
+  for (std::size_t r = 0; r < rays_.size(); ++r) {
+    const Vec3d& tau = depth_[r];
+    if (tau.x == tau.y && tau.y == tau.z)
+      sum += rays_[r].contribution * static_cast<float>(std::exp(-tau.x));
+    else
+      sum += rays_[r].contribution * Rgb(Vec3d{std::exp(-tau.x), std::exp(-tau.y), std::exp(-tau.z)});
+  }
+  rays_.clear();
+  return sum;
+}
+
+// Closed forms at once; the rest is kept for the march.
+void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32_t ray, Worker& worker) {
+  world.volume_intervals(rays_[ray].ray, compile::RayKind::shadow, intervals_);
+  for (const compile::VolumeInterval& i : intervals_) {
+    const compile::CompiledVolume& volume = world.volumes[i.volume];
+    const compile::CompiledMedium& medium = world.media[volume.medium];
+    const double length = i.t1 - i.t0;
+    if (medium.constant_sigma_t) {
+      depth_[ray] += Vec3d(*medium.constant_sigma_t) * length;
+      continue;
+    }
+    const std::uint32_t n = medium.homogeneous ? 1 : segments_for(length, volume.step, worker);
+    stays_.push_back({i.volume, ray, n, i.t0, length / n});
+  }
+}
+
+// Runs the extinction programs volume by volume, over all rays' segments.
+void ShadowBatch::march_stays(const compile::CompiledScene& world, Worker& worker) {
+  std::stable_sort(stays_.begin(), stays_.end(),
+                   [](const Stay& a, const Stay& b) { return a.volume < b.volume; });
+  for (auto first = stays_.begin(); first != stays_.end();) {
+    const auto last =
+        std::find_if(first, stays_.end(), [&](const Stay& s) { return s.volume != first->volume; });
+    const compile::CompiledVolume& volume = world.volumes[first->volume];
+    const scene::Medium& medium = world.scene.media[volume.medium];
+    const vm::Program& program = medium.extinction;
+    std::size_t count = 0;
+    for (auto s = first; s != last; ++s) count += s->count;
+
+    MediumLanes lanes(world, volume, program, worker);
+    lanes.reserve(count);
+    std::size_t lane = 0;
+    for (auto s = first; s != last; lane += s->count, ++s) {
+      const std::uint32_t seed = rays_[s->ray].seed;
+      lanes.set(rays_[s->ray].ray, lane, s->count, [&](std::size_t k) {
+        return s->t0 + (static_cast<double>(k) + jitter(seed, static_cast<std::uint32_t>(k))) * s->dt;
+      });
+    }
+    values_.resize(count * program.outputs.size());
+    worker.outputs.clear();
+    for (std::size_t k = 0; k < program.outputs.size(); ++k)
+      worker.outputs.push_back(values_.data() + k * count);
+    lanes.run(count, worker.outputs);
+    worker.statistics.segments += count;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint8_t output = medium.extinction_sigma_t[c];
+      if (c > 0 && output == medium.extinction_sigma_t[c - 1]) continue;
+      clamp_bad_values(worker.outputs[output], count, false, volume.medium, medium.sigma_t[c], worker);
+    }
+    lane = 0;
+    Vec3d tau;
+    for (auto s = first; s != last; lane += s->count, ++s)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint8_t output = medium.extinction_sigma_t[c];
+        if (c > 0 && output == medium.extinction_sigma_t[c - 1]) {
+          tau[c] = tau[c - 1];
+        } else {
+          tau[c] = 0;
+          for (std::uint32_t k = 0; k < s->count; ++k) tau[c] += worker.outputs[output][lane + k];
+          tau[c] *= s->dt;
+        }
+        depth_[s->ray][c] += tau[c];
+      }
+    first = last;
+  }
+}
+
+}  // namespace tyndall::render

@@ -1,0 +1,62 @@
+// What one thread owns while it renders: machine, scratch and counters. Grown on demand, then reused.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "render/direct_light.h"
+#include "render/march.h"
+#include "render/render.h"
+#include "render/transmittance.h"
+#include "vm/machine.h"
+
+namespace tyndall::render {
+
+// Shaders give no more than this; larger values are taken for infinite.
+inline constexpr float largest_value = 1e30f;
+
+// Counts of bad values by (shader, output, kind).
+class BadValueCounts {
+ public:
+  void add_medium(std::uint32_t medium, std::size_t output, BadValue::Kind kind, std::uint64_t count) {
+    counts_[{false, medium, output, kind}] += count;
+  }
+  void add_material(std::uint32_t material, std::size_t output, BadValue::Kind kind) {
+    ++counts_[{true, material, output, kind}];
+  }
+  void add_all(const BadValueCounts& other) {
+    for (const auto& [key, count] : other.counts_) counts_[key] += count;
+  }
+  std::vector<BadValue> list(const scene::Scene& scene) const;
+
+ private:
+  struct Key {
+    bool of_material;
+    std::uint32_t shader;
+    std::size_t output;
+    BadValue::Kind kind;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::map<Key, std::uint64_t> counts_;
+};
+
+struct Worker {
+  vm::Machine machine;
+  Statistics statistics;
+  BadValueCounts bad_values;
+  std::array<std::vector<float>, vm::input_count> inputs;  // lanes of one batch
+  std::vector<float*> outputs;
+  std::vector<float> material_outputs;
+  March marches[2];  // the current ray's and the one before, which weights what the current one meets
+  LightStrategies strategies[2];  // of the same rays
+  LightChoice surface_lights;
+  PhaseMixture phase;
+  ShadowBatch shadows;
+  std::vector<Intervald> stretches;
+  std::vector<double> edges, reach;  // of the march at work
+};
+
+}  // namespace tyndall::render

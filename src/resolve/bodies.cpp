@@ -1,0 +1,87 @@
+// The caches of media and materials: see bodies.h.
+#include "resolve/bodies.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+#include "resolve/run.h"
+
+namespace tyndall::resolve {
+
+namespace {
+
+// The body with its parameters bound, or nothing after an error.
+std::optional<eval::Body> body_of(Run& run, const Thing& thing) {
+  if (thing.value.is_error()) return std::nullopt;
+  const auto* body = thing.value.get<eval::Body>();
+  CHECK(body);
+  if (body->item) run.bodies.compiled.insert(body->item);
+  return run.evaluator.bound(*body, thing.span);
+}
+
+}  // namespace
+
+scene::MediumId medium_of(Run& run, const Thing& thing) {
+  const auto body = body_of(run, thing);
+  if (!body) return {};
+  const auto [known, is_new] = run.bodies.media.try_emplace(body->key);
+  if (!is_new) return known->second;
+  auto medium = shader::compile_medium(run.context, *body, run.options.shader);
+  if (!medium) return {};
+  run.scene.media.push_back(std::move(*medium));
+  return run.bodies.media[body->key] = scene::MediumId(run.scene.media.size() - 1);
+}
+
+scene::MaterialId material_of(Run& run, const Thing& thing) {
+  const auto of_value = run.bodies.material_of_value.find(thing.value.heavy.get());
+  if (of_value != run.bodies.material_of_value.end()) return of_value->second;
+  const auto body = body_of(run, thing);
+  if (!body) return {};
+  const auto [known, is_new] = run.bodies.materials.try_emplace(body->key);
+  if (is_new) {
+    if (auto material = shader::compile_material(run.context, *body, run.options.shader)) {
+      run.scene.materials.push_back(std::move(*material));
+      known->second = scene::MaterialId(run.scene.materials.size() - 1);
+    }
+  }
+  // Only values that a name holds come again; the others would fill the memory.
+  if (thing.value.heavy.use_count() > 1) {
+    run.bodies.kept.push_back(thing.value);
+    run.bodies.material_of_value.emplace(thing.value.heavy.get(), known->second);
+  }
+  return known->second;
+}
+
+scene::MaterialId default_material(Run& run) {
+  if (!run.bodies.default_material.valid())
+    run.bodies.default_material = scene::add_diffuse(run.scene, Rgb(0.8f));
+  return run.bodies.default_material;
+}
+
+void note_definition(Run& run, const syntax::SyntaxTree& tree, const syntax::BodyItem& item,
+                     const eval::Value& value) {
+  if (run.bodies.defined.insert(&item).second) run.bodies.definitions.push_back({&tree, &item, value});
+}
+
+void check_unused_bodies(Run& run) {
+  for (const Bodies::Definition& definition : run.bodies.definitions) {
+    if (run.bodies.compiled.contains(definition.item)) continue;
+    const auto parameters = definition.tree->list_of_parameters(definition.item->parameters);
+    const auto* body = definition.value.get<eval::Body>();
+    if (!body || !std::all_of(parameters.begin(), parameters.end(),
+                              [](const syntax::Parameter& p) { return p.default_value.valid(); }))
+      continue;
+    const auto with_defaults = run.evaluator.bound(*body, definition.item->name.span);
+    if (!with_defaults) continue;
+    switch (definition.item->kind) {
+      case syntax::BodyKind::medium:
+        shader::compile_medium(run.context, *with_defaults, run.options.shader);
+        break;
+      case syntax::BodyKind::material:
+        shader::compile_material(run.context, *with_defaults, run.options.shader);
+        break;
+    }
+  }
+}
+
+}  // namespace tyndall::resolve

@@ -1,0 +1,100 @@
+// Light statements, and how lights move to world space.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "resolve/placement.h"
+#include "resolve/run.h"
+
+namespace tyndall::resolve {
+
+std::optional<double> similarity_scale(const Transform& t) {
+  constexpr double tolerance = 1e-6;
+  const double x2 = length_squared(t.x), y2 = length_squared(t.y), z2 = length_squared(t.z);
+  const double scale2 = (x2 + y2 + z2) / 3;
+  const auto close = [&](double a, double b) { return std::abs(a - b) <= tolerance * scale2; };
+  if (!close(x2, scale2) || !close(y2, scale2) || !close(z2, scale2)) return std::nullopt;
+  if (!close(dot(t.x, t.y), 0) || !close(dot(t.y, t.z), 0) || !close(dot(t.z, t.x), 0)) return std::nullopt;
+  return std::sqrt(scale2);
+}
+
+bool to_world(optics::PointLight& light, const Transform& world_from_local) {
+  light.position = world_from_local.point(light.position);
+  return true;
+}
+
+bool to_world(optics::SpotLight& light, const Transform& world_from_local) {
+  if (!similarity_scale(world_from_local)) return false;
+  light.position = world_from_local.point(light.position);
+  light.to = world_from_local.point(light.to);
+  return true;
+}
+
+bool to_world(optics::SphereLight& light, const Transform& world_from_local) {
+  const std::optional<double> scale = similarity_scale(world_from_local);
+  if (!scale) return false;
+  light.center = world_from_local.point(light.center);
+  light.radius *= *scale;
+  return true;
+}
+
+bool to_world(optics::QuadLight& light, const Transform& world_from_local) {
+  light.center = world_from_local.point(light.center);
+  light.u = world_from_local.vector(light.u);
+  light.v = world_from_local.vector(light.v);
+  // A mirroring map turns u × v around; swapped, the light still shines where its statement says.
+  if (world_from_local.determinant() < 0) std::swap(light.u, light.v);
+  return true;
+}
+
+bool to_world(optics::DiskLight& light, const Transform& world_from_local) {
+  const std::optional<double> scale = similarity_scale(world_from_local);
+  if (!scale) return false;
+  light.center = world_from_local.point(light.center);
+  light.normal = normalize(world_from_local.vector(light.normal));
+  light.radius *= *scale;
+  return true;
+}
+
+bool to_world(optics::DistantLight& light, const Transform& world_from_local) {
+  light.direction = normalize(world_from_local.vector(light.direction));
+  return true;
+}
+
+bool to_world(optics::EnvironmentLight&, const Transform&) { return true; }
+
+void add_light(Run& run, ObjectLight light, const Transform& world_from_light) {
+  if (run.building) {
+    // As read: only where the object is placed is it known whether the maps together stretch it.
+    light.object_from_light = world_from_light;
+    run.building->lights.push_back(std::move(light));
+    return;
+  }
+  if (!std::visit([&](auto& l) { return to_world(l, world_from_light); }, light.light))
+    return run.diagnostics.error(light.definition,
+                                 fmt::format("a '{}' cannot be stretched or sheared", light.statement),
+                                 "use one scale for all axes in the transforms around it, or a `light quad`");
+  run.scene.lights.push_back({light.light, light.definition});
+}
+
+template <class Light>
+void run_light(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
+  if constexpr (std::is_same_v<Light, optics::EnvironmentLight>) reader.not_yet({"rotation"});
+  Light light = reader.read_valid<Light>();
+  const auto placement = reader.read<Placement>();
+  reader.finish();
+  if (!reader.ok()) return;
+  add_light(run, {light, {}, header(thing), row.name}, site.world_from_local * placement.transform);
+}
+
+template void run_light<optics::PointLight>(Run&, const Site&, const syntax::ThingItem&, const Statement&);
+template void run_light<optics::SpotLight>(Run&, const Site&, const syntax::ThingItem&, const Statement&);
+template void run_light<optics::SphereLight>(Run&, const Site&, const syntax::ThingItem&, const Statement&);
+template void run_light<optics::QuadLight>(Run&, const Site&, const syntax::ThingItem&, const Statement&);
+template void run_light<optics::DiskLight>(Run&, const Site&, const syntax::ThingItem&, const Statement&);
+template void run_light<optics::DistantLight>(Run&, const Site&, const syntax::ThingItem&, const Statement&);
+template void run_light<optics::EnvironmentLight>(Run&, const Site&, const syntax::ThingItem&,
+                                                  const Statement&);
+
+}  // namespace tyndall::resolve

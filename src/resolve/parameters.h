@@ -1,0 +1,146 @@
+// Parameters that only the scene language has: what statements take besides the fields of the scene's own
+// structs.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/fields.h"
+#include "base/transform.h"
+#include "base/vec.h"
+#include "eval/value.h"
+#include "scene/scene.h"
+
+namespace tyndall::resolve {
+
+// A medium, material or shape as written: read further by the statement that takes it.
+struct Thing {
+  eval::Type wanted;
+  eval::Value value{};
+  Span span{};
+  bool given() const { return span.valid(); }
+};
+
+struct RenderParameters {
+  static constexpr std::string_view keyword = scene::RenderSettings::keyword;
+  Pair<int> resolution{scene::RenderSettings{}.width, scene::RenderSettings{}.height};
+  int samples = scene::RenderSettings{}.samples;
+  double step = scene::RenderSettings{}.step;
+  int light_samples = scene::RenderSettings{}.light_samples;
+  int bounces = scene::RenderSettings{}.bounces;
+  std::uint64_t seed = scene::RenderSettings{}.seed;
+  template <class F>
+  static void fields(F&& field) {
+    using P = RenderParameters;
+    field(&P::resolution, FieldInfo{"resolution", "the picture's (width, height) in pixels, 1 to 16384"});
+    field(&P::samples, FieldInfo{"samples", "paths through each pixel, >= 1"});
+    field(&P::step, FieldInfo{"step", "length of a march's segments, > 0 [m]", Quantity::length});
+    field(&P::light_samples, FieldInfo{"light_samples", "light points for each path segment, >= 1"});
+    field(&P::bounces, FieldInfo{"bounces", "scatterings and reflections at most, >= 0"});
+    field(&P::seed, FieldInfo{"seed", "of the random numbers, a whole number >= 0"});
+  }
+};
+
+struct AnimationParameters {
+  static constexpr std::string_view keyword = scene::Animation::keyword;
+  double fps = 0;
+  eval::RangeValue frames;
+  Angle shutter;
+  template <class F>
+  static void fields(F&& field) {
+    using P = AnimationParameters;
+    field(&P::fps, FieldInfo{"fps", "frames a second, > 0", Quantity::plain, required});
+    field(&P::frames, FieldInfo{"frames", "the first and the last frame: 1..48", Quantity::plain, required});
+    field(&P::shutter,
+          FieldInfo{"shutter", "how long the shutter is open, 0deg to 360deg (a frame)", Quantity::angle});
+  }
+};
+
+// A mesh as written; becomes a scene::TriangleMesh.
+struct MeshParameters {
+  static constexpr std::string_view keyword = scene::Mesh::keyword;
+  std::vector<Vec3d> points, triangles, normals;
+  std::vector<Pair<double>> uvs;
+  template <class F>
+  static void fields(F&& field) {
+    using P = MeshParameters;
+    field(&P::points,
+          FieldInfo{"points", "a list of its corners: [(0, 0, 0), …] [m]", Quantity::position, required});
+    field(&P::triangles,
+          FieldInfo{"triangles",
+                    "a list of three points each, counted from 0: [(0, 1, 2), …], counter-clockwise seen "
+                    "from outside",
+                    Quantity::plain, required});
+    field(&P::normals,
+          FieldInfo{"normals", "a list of smooth normals, one for each point", Quantity::direction});
+    field(&P::uvs, FieldInfo{"uvs", "a list of pairs, one for each point"});
+  }
+};
+
+// What every shape takes besides its own fields.
+struct ShapePlacement {
+  Transform transform;
+  Thing material{eval::Type::material};
+  bool visible = true;
+  template <class F>
+  static void fields(F&& field) {
+    using P = ShapePlacement;
+    field(&P::transform, FieldInfo{"transform", "moves it"});
+    field(&P::material, FieldInfo{"material", "its surface; default: grey 0.8"});
+    field(&P::visible, FieldInfo{"visible", "whether the camera sees it"});
+  }
+};
+
+// What lights, cameras and shape literals take besides their own fields.
+struct Placement {
+  Transform transform;
+  template <class F>
+  static void fields(F&& field) {
+    field(&Placement::transform, FieldInfo{"transform", "moves it"});
+  }
+};
+
+struct VolumeParameters {
+  static constexpr std::string_view keyword = "volume";
+  Thing in{eval::Type::shape}, medium{eval::Type::medium};
+  std::optional<double> step;
+  Transform transform;
+  bool visible = true;
+  template <class F>
+  static void fields(F&& field) {
+    using P = VolumeParameters;
+    field(&P::in, FieldInfo{"in", "the closed shape that it fills", Quantity::plain, required});
+    field(&P::medium, FieldInfo{"medium", "what it is filled with", Quantity::plain, required});
+    field(&P::step, FieldInfo{"step", "length of a march's segments inside, > 0 [m]", Quantity::length});
+    field(&P::transform, FieldInfo{"transform", "moves it, and the p of its medium"});
+    field(&P::visible, FieldInfo{"visible", "whether the camera sees it"});
+  }
+};
+
+struct GroupParameters {
+  static constexpr std::string_view keyword = "group";
+  Transform transform;
+  Thing material{eval::Type::material};
+  bool visible = true;
+  template <class F>
+  static void fields(F&& field) {
+    using P = GroupParameters;
+    field(&P::transform, FieldInfo{"transform", "moves all that is in it"});
+    field(&P::material, FieldInfo{"material", "of the shapes in it that name none"});
+    field(&P::visible, FieldInfo{"visible", "whether the camera sees the shapes and volumes in it"});
+  }
+};
+
+struct PlaceParameters {
+  static constexpr std::string_view keyword = "place";
+  Transform transform;
+  Thing material{eval::Type::material};
+  template <class F>
+  static void fields(F&& field) {
+    using P = PlaceParameters;
+    field(&P::transform, FieldInfo{"transform", "moves the object's copy"});
+    field(&P::material, FieldInfo{"material", "of the shapes in it that name none"});
+  }
+};
+
+}  // namespace tyndall::resolve

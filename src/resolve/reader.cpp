@@ -1,0 +1,311 @@
+// The values of parameters: types, units, and messages. See reader.h.
+#include "resolve/reader.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "base/overloaded.h"
+
+namespace tyndall::resolve {
+
+namespace {
+
+std::string_view unit_name(syntax::Unit unit) {
+  switch (unit) {
+    case syntax::Unit::none:
+      return "a bare number";
+    case syntax::Unit::length:
+      return "a length";
+    case syntax::Unit::time:
+      return "a time";
+    case syntax::Unit::temperature:
+      return "a temperature";
+    case syntax::Unit::angle:
+      return "an angle";
+  }
+  return {};
+}
+
+// Whether a number written with `unit` can be a `quantity`; bare numbers fit everything but angles, which
+// have a type of their own.
+bool fits(Quantity quantity, syntax::Unit unit) {
+  if (unit == syntax::Unit::none) return true;
+  switch (quantity) {
+    case Quantity::plain:
+    case Quantity::color:
+      return false;
+    case Quantity::length:
+    case Quantity::position:
+    case Quantity::direction:
+      return unit == syntax::Unit::length;
+    case Quantity::time:
+      return unit == syntax::Unit::time;
+    case Quantity::angle:
+      return unit == syntax::Unit::angle;
+  }
+  return false;
+}
+
+std::string_view wanted(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::plain:
+      return "a number without a unit";
+    case Quantity::color:
+      return "a number or colour without a unit";
+    case Quantity::length:
+    case Quantity::position:
+    case Quantity::direction:
+      return "a length";
+    case Quantity::time:
+      return "a time";
+    case Quantity::angle:
+      return "an angle";
+  }
+  return {};
+}
+
+}  // namespace
+
+Reader::Reader(eval::Evaluator& evaluator, const Schemas& schemas, ReaderSite site, syntax::BlockId block,
+               std::string_view keyword, Span header, Others others)
+    : evaluator_(evaluator),
+      schemas_(schemas),
+      diagnostics_(*evaluator.context().diagnostics),
+      symbols_(*evaluator.context().symbols),
+      site_(site),
+      keyword_(keyword),
+      header_(header) {
+  const syntax::SyntaxTree& tree = *site_.tree;
+  const auto items = tree.list_of_items(tree[block].items);
+  given_.reserve(items.size());
+  for (const syntax::ItemId id : items) {
+    const syntax::Item& item = tree[id];
+    if (const auto* parameter = std::get_if<syntax::ParameterItem>(&item.node)) {
+      if (const Given* earlier = find(parameter->name.symbol)) {
+        ok_ = false;
+        diagnostics_.error(parameter->name.span,
+                           fmt::format("'{}' is given twice", symbols_.text(parameter->name.symbol)), {},
+                           {{earlier->item->name.span, "first given here"}});
+      } else {
+        given_.push_back({parameter, false});
+      }
+    } else if (const auto* assign = std::get_if<syntax::AssignItem>(&item.node)) {
+      if (others == Others::allowed) continue;
+      error(assign->name.span, fmt::format("a parameter of '{}' is given with ':', not '='", keyword_),
+            fmt::format("write `{}: …`", symbols_.text(assign->name.symbol)));
+    } else if (others == Others::refused) {
+      error(item.span, fmt::format("'{}' holds parameters only", keyword_),
+            "statements stand beside it, or in a `group { … }`");
+    }
+  }
+}
+
+void Reader::error(Span span, std::string message, std::string help) {
+  ok_ = false;
+  diagnostics_.error(span, std::move(message), std::move(help));
+}
+
+Span Reader::place(std::string_view field) const {
+  for (const Given& given : given_)
+    if (symbols_.text(given.item->name.symbol) == field) return value_span(given);
+  return header_;
+}
+
+void Reader::report(const scene::Problems& problems) {
+  for (const scene::Problem& problem : problems) error(place(problem.field), problem.message, problem.help);
+}
+
+void Reader::report_missing(const FieldInfo& info) {
+  error(header_, fmt::format("'{}' needs '{}'", keyword_, info.name),
+        fmt::format("add `{}: …`: {}", info.name, info.documentation));
+}
+
+void Reader::report_one_of(const std::vector<std::string_view>& names) {
+  const std::string list = fmt::format("{}", fmt::join(names, " and "));
+  Span first, last;
+  for (const std::string_view name : names) {
+    const Given* given = find(symbols_.intern(name));
+    if (!given) continue;
+    if (!first.valid()) first = given->item->name.span;
+    last = given->item->name.span;
+  }
+  ok_ = false;
+  if (!first.valid()) return error(header_, fmt::format("{}: give exactly one for '{}'", list, keyword_));
+  diagnostics_.error(last, fmt::format("{}: give exactly one for '{}'", list, keyword_), {},
+                     {{first, "the other is given here"}});
+}
+
+void Reader::not_yet(std::initializer_list<std::string_view> names) {
+  for (Given& given : given_) {
+    for (const std::string_view name : names) {
+      if (given.taken || symbols_.text(given.item->name.symbol) != name) continue;
+      given.taken = true;
+      error(given.item->name.span, fmt::format("'{}' of '{}' is not available yet", name, keyword_));
+    }
+  }
+}
+
+void Reader::not_yet(std::string_view name, std::string_view word) {
+  for (Given& given : given_) {
+    if (symbols_.text(given.item->name.symbol) != name) continue;
+    const auto* value = std::get_if<syntax::NameExpr>(&(*site_.tree)[given.item->value].node);
+    if (!value || symbols_.text(value->symbol) != word) continue;
+    given.taken = true;
+    error(value_span(given), fmt::format("'{}: {}' is not available yet", name, word), "give a number");
+  }
+}
+
+void Reader::finish(std::string_view hint) {
+  for (const Given& given : given_) {
+    if (given.taken) continue;
+    std::vector<std::string_view> known;
+    for (std::size_t i = 0; i < known_count_; ++i) known_[i](known);
+    const std::string_view name = symbols_.text(given.item->name.symbol);
+    std::string help = did_you_mean(name, known);
+    if (help.empty()) help = hint;
+    if (help.empty() && !known.empty()) help = fmt::format("it has: {}", fmt::join(known, ", "));
+    error(given.item->name.span, fmt::format("no parameter '{}' in '{}'", name, keyword_), std::move(help));
+  }
+}
+
+void Reader::error_unit(const FieldInfo& info, const eval::Value& value, Span span) {
+  error(span,
+        fmt::format("'{}' wants {}, found {}", info.name, wanted(info.quantity), unit_name(value.unit)));
+}
+
+eval::Value Reader::evaluate(eval::Type type, const FieldInfo& info, const Given& given) {
+  eval::Value value = evaluator_.evaluate_as(type, *site_.tree, given.item->value, *site_.scope, info.name);
+  if (value.is_error()) {
+    ok_ = false;
+  } else if (!fits(info.quantity, value.unit)) {
+    error_unit(info, value, value_span(given));
+    return {};
+  }
+  return value;
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, double& to) {
+  const eval::Value value = evaluate(eval::Type::number, info, given);
+  if (!value.is_error()) to = value.as_number();
+}
+
+// Reports a number that is not whole or not in [least, greatest].
+bool Reader::to_whole(std::string_view name, double number, Span span, double least, double greatest) {
+  if (number != std::floor(number)) {
+    error(span, fmt::format("'{}' must be a whole number, found {}", name, number));
+    return false;
+  }
+  if (number < least || number > greatest) {
+    error(span, fmt::format("'{}' must be from {} to {}, found {}", name, least, greatest, number));
+    return false;
+  }
+  return true;
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, int& to) {
+  const eval::Value value = evaluate(eval::Type::number, info, given);
+  if (value.is_error()) return;
+  const double number = value.as_number();
+  if (to_whole(info.name, number, value_span(given), std::numeric_limits<int>::min(),
+               std::numeric_limits<int>::max()))
+    to = static_cast<int>(number);
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, std::uint64_t& to) {
+  const eval::Value value = evaluate(eval::Type::number, info, given);
+  if (value.is_error()) return;
+  const double number = value.as_number();
+  constexpr double exact_whole_numbers = 9007199254740992.0;  // 2^53: all of them are doubles below it
+  if (to_whole(info.name, number, value_span(given), 0, exact_whole_numbers))
+    to = static_cast<std::uint64_t>(number);
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, bool& to) {
+  const eval::Value value = evaluate(eval::Type::boolean, info, given);
+  if (!value.is_error()) to = value.as_bool();
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, Angle& to) {
+  const eval::Value value = evaluate(eval::Type::angle, info, given);
+  if (!value.is_error()) to.radians = value.scalars[0].value;
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, Vec3d& to) {
+  const eval::Value value = evaluate(eval::Type::vec, info, given);
+  if (!value.is_error()) to = value.as_vec();
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, Rgb& to) {
+  const eval::Value value = evaluator_.evaluate(*site_.tree, given.item->value, *site_.scope);
+  const Span span = value_span(given);
+  if (value.is_error()) {
+    ok_ = false;
+  } else if (value.type != eval::Type::number && value.type != eval::Type::vec) {
+    error(span,
+          fmt::format("'{}' wants a number or a colour, found {}", info.name, eval::describe(value.type)),
+          "a number is that much in each of red, green and blue");
+  } else if (!fits(info.quantity, value.unit)) {
+    error_unit(info, value, span);
+  } else {
+    to = value.type == eval::Type::number ? Rgb(static_cast<float>(value.as_number())) : Rgb(value.as_vec());
+  }
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, Pair<int>& to) {
+  const eval::Value value = evaluate(eval::Type::pair, info, given);
+  if (value.is_error()) return;
+  const double x = value.scalars[0].value, y = value.scalars[1].value;
+  constexpr double least = std::numeric_limits<int>::min(), greatest = std::numeric_limits<int>::max();
+  const Span span = value_span(given);
+  if (to_whole(info.name, x, span, least, greatest) && to_whole(info.name, y, span, least, greatest))
+    to = {static_cast<int>(x), static_cast<int>(y)};
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, Transform& to) {
+  const eval::Value value = evaluate(eval::Type::transform, info, given);
+  if (value.is_error()) return;
+  to = value.as_transform();
+  if (!to.inverse())
+    error(value_span(given), fmt::format("'{}' flattens space: it cannot be undone", info.name),
+          "scale by numbers other than 0");
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, eval::RangeValue& to) {
+  const eval::Value value = evaluate(eval::Type::range, info, given);
+  if (!value.is_error()) to = std::get<eval::RangeValue>(*value.heavy);
+}
+
+std::vector<eval::Value> Reader::read_list(eval::Type type, const FieldInfo& info, const Given& given) {
+  const eval::Value list = evaluate(eval::Type::list, info, given);
+  std::vector<eval::Value> elements;
+  if (list.is_error()) return elements;
+  const std::string what = fmt::format("an element of '{}'", info.name);
+  for (const eval::Value& element : list.as_list()) {
+    elements.push_back(evaluator_.convert(type, element, value_span(given), what, false));
+    if (elements.back().is_error()) {
+      ok_ = false;
+      return {};
+    }
+    if (fits(info.quantity, element.unit)) continue;
+    error_unit(info, element, value_span(given));
+    return {};
+  }
+  return elements;
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, std::vector<Vec3d>& to) {
+  for (const eval::Value& element : read_list(eval::Type::vec, info, given)) to.push_back(element.as_vec());
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, std::vector<Pair<double>>& to) {
+  for (const eval::Value& element : read_list(eval::Type::pair, info, given))
+    to.push_back({element.scalars[0].value, element.scalars[1].value});
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, Thing& to) {
+  to.span = value_span(given);
+  to.value = evaluate(to.wanted, info, given);
+}
+
+}  // namespace tyndall::resolve

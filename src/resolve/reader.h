@@ -1,0 +1,182 @@
+// Reads the parameters of a thing's block into structs that state them in fields() (base/fields.h).
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/fields.h"
+#include "eval/evaluator.h"
+#include "resolve/parameters.h"
+#include "scene/scene.h"
+#include "scene/validate.h"
+#include "syntax/tree.h"
+
+namespace tyndall::resolve {
+
+// The interned names of T's fields, in order: names are compared as numbers.
+template <class T>
+struct Schema {
+  explicit Schema(syntax::Symbols& symbols) {
+    T::fields([&](auto, const FieldInfo& info) { names.push_back(symbols.intern(info.name)); });
+  }
+  std::vector<syntax::SymbolId> names;
+};
+
+// One schema for each struct that is read.
+template <class... T>
+struct SchemasOf {
+  explicit SchemasOf(syntax::Symbols& symbols) : all(Schema<T>(symbols)...) {}
+  template <class U>
+  const Schema<U>& of() const {
+    return std::get<Schema<U>>(all);
+  }
+  std::tuple<Schema<T>...> all;
+};
+using Schemas = SchemasOf<RenderParameters, AnimationParameters, MeshParameters, ShapePlacement, Placement,
+                          VolumeParameters, GroupParameters, PlaceParameters, scene::PerspectiveCamera,
+                          scene::OrthographicCamera, scene::SphericalCamera, scene::Sphere, scene::Box,
+                          scene::Plane, scene::Quad, scene::Disk, scene::Cylinder, optics::PointLight,
+                          optics::SpotLight, optics::SphereLight, optics::QuadLight, optics::DiskLight,
+                          optics::DistantLight, optics::EnvironmentLight>;
+
+// The text a block belongs to and the names in force where its values stand.
+struct ReaderSite {
+  const syntax::SyntaxTree* tree = nullptr;
+  const std::shared_ptr<eval::Scope>* scope = nullptr;
+};
+
+// The parameters of one block: read<T>() takes those of T, finish() reports what nothing took.
+class Reader {
+ public:
+  // What else may stand in the block: nothing, or (group) statements, which are left alone.
+  enum class Others : bool { refused, allowed };
+
+  // `keyword` names the thing in messages; `header` is the place of its word.
+  Reader(eval::Evaluator& evaluator, const Schemas& schemas, ReaderSite site, syntax::BlockId block,
+         std::string_view keyword, Span header, Others others = Others::refused);
+
+  // The struct, with defaults for what is not given or was wrong (see ok()).
+  template <class T>
+  T read();
+  // The same, and the problems of scene::validate shown at their parameters.
+  template <class T>
+  T read_valid();
+
+  // Reports an error for each name in `names` that was given, and takes it.
+  void not_yet(std::initializer_list<std::string_view> names);
+  // The same for one word as the value of a parameter: `step: auto`.
+  void not_yet(std::string_view name, std::string_view word);
+  // Reports what nothing took. `hint` is shown when no name resembles it.
+  void finish(std::string_view hint = {});
+  // Shows problems at their parameters (at the header when the parameter was not given).
+  void report(const scene::Problems& problems);
+
+  // Whether all that was read is there and right.
+  bool ok() const { return ok_; }
+  // The place of a parameter's value, or of the header.
+  Span place(std::string_view field) const;
+  void error(Span span, std::string message, std::string help = {});
+
+ private:
+  struct Given {
+    const syntax::ParameterItem* item;
+    bool taken;
+  };
+  Given* find(syntax::SymbolId name) {
+    for (Given& given : given_)
+      if (given.item->name.symbol == name) return &given;
+    return nullptr;
+  }
+  Span value_span(const Given& given) const { return (*site_.tree)[given.item->value].span; }
+  eval::Value evaluate(eval::Type type, const FieldInfo& info, const Given& given);
+  void error_unit(const FieldInfo& info, const eval::Value& value, Span span);
+
+  void read_value(const FieldInfo& info, const Given& given, double& to);
+  void read_value(const FieldInfo& info, const Given& given, int& to);
+  void read_value(const FieldInfo& info, const Given& given, std::uint64_t& to);
+  void read_value(const FieldInfo& info, const Given& given, bool& to);
+  void read_value(const FieldInfo& info, const Given& given, Angle& to);
+  void read_value(const FieldInfo& info, const Given& given, Vec3d& to);
+  void read_value(const FieldInfo& info, const Given& given, Rgb& to);
+  void read_value(const FieldInfo& info, const Given& given, Pair<int>& to);
+  void read_value(const FieldInfo& info, const Given& given, Transform& to);
+  void read_value(const FieldInfo& info, const Given& given, eval::RangeValue& to);
+  void read_value(const FieldInfo& info, const Given& given, Thing& to);
+  void read_value(const FieldInfo& info, const Given& given, std::vector<Vec3d>& to);
+  void read_value(const FieldInfo& info, const Given& given, std::vector<Pair<double>>& to);
+  // The elements of a list, each of `type`; none after an error.
+  std::vector<eval::Value> read_list(eval::Type type, const FieldInfo& info, const Given& given);
+  template <class T>
+  void read_value(const FieldInfo& info, const Given& given, std::optional<T>& to) {
+    T value{};
+    read_value(info, given, value);
+    to = value;
+  }
+  bool to_whole(std::string_view name, double number, Span span, double least, double greatest);
+  void report_missing(const FieldInfo& info);
+  // A group of which exactly one must be given: nothing, or more than one was.
+  void report_one_of(const std::vector<std::string_view>& names);
+
+  using ListNames = void (*)(std::vector<std::string_view>&);
+  template <class T>
+  static void list_names(std::vector<std::string_view>& names) {
+    T::fields([&](auto, const FieldInfo& info) { names.push_back(info.name); });
+  }
+
+  eval::Evaluator& evaluator_;
+  const Schemas& schemas_;
+  Diagnostics& diagnostics_;
+  syntax::Symbols& symbols_;
+  ReaderSite site_;
+  std::string_view keyword_;
+  Span header_;
+  std::vector<Given> given_;
+  std::array<ListNames, 3> known_{};  // of the structs read so far: candidates for "did you mean"
+  std::size_t known_count_ = 0;
+  bool ok_ = true;
+};
+
+template <class T>
+T Reader::read() {
+  T result{};
+  known_[known_count_++] = &list_names<T>;
+  const Schema<T>& schema = schemas_.of<T>();
+  std::size_t i = 0;
+  std::string_view group;  // our structs have at most one
+  int group_given = 0;
+  T::fields([&](auto member, const FieldInfo& info) {
+    Given* given = find(schema.names[i++]);
+    if (!info.one_of.empty()) {
+      group = info.one_of;
+      if (given) ++group_given;
+    }
+    if (!given) {
+      if (info.presence == Presence::required) report_missing(info);
+    } else if (!given->taken) {
+      given->taken = true;
+      read_value(info, *given, result.*member);
+    }
+  });
+  if (!group.empty() && group_given != 1) {
+    std::vector<std::string_view> names;
+    T::fields([&](auto, const FieldInfo& info) {
+      if (info.one_of == group) names.push_back(info.name);
+    });
+    report_one_of(names);
+  }
+  return result;
+}
+
+template <class T>
+T Reader::read_valid() {
+  const T result = read<T>();
+  if (ok_) report(scene::validate(result));
+  return result;
+}
+
+}  // namespace tyndall::resolve

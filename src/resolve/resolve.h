@@ -1,0 +1,29 @@
+// Tree to Scene at a frame: names, scopes, units, templates, loops, includes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/source.h"
+#include "scene/scene.h"
+#include "shader/compile_body.h"
+#include "syntax/tree.h"
+
+namespace tyndall::resolve {
+
+struct Options {
+  std::optional<int> frame;                                    // default: the first of `animation`
+  std::vector<std::pair<std::string, std::string>> overrides;  // --set NAME=EXPR
+  std::vector<std::string> include_directories;
+  shader::Options shader;
+  long max_repetitions = 10'000'000;  // rounds of loops, calls and places, all together: beyond, a mistake
+};
+
+// The scene that the tree describes, as far as it could be read; look at the diagnostics before using it.
+// Overrides and included files are added to `sources`.
+scene::Scene resolve(const syntax::SyntaxTree& tree, Sources& sources, syntax::Symbols& symbols,
+                     const Options& options, Diagnostics& diagnostics);
+
+}  // namespace tyndall::resolve

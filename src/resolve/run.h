@@ -1,0 +1,155 @@
+// What one resolve shares, and where an item stands. Internal to this layer.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "eval/evaluator.h"
+#include "resolve/bodies.h"
+#include "resolve/reader.h"
+#include "resolve/resolve.h"
+#include "resolve/statements.h"
+#include "resolve/unused.h"
+#include "scene/scene.h"
+#include "syntax/parser.h"
+
+namespace tyndall::resolve {
+
+// Limits: beyond them a scene is taken for a mistake.
+inline constexpr int max_template_depth = 128;  // templates and objects within each other
+inline constexpr int max_include_depth = 64;
+inline constexpr int max_block_depth = 500;  // blocks within blocks within calls: bounds the stack
+inline constexpr std::uintmax_t max_file_bytes = 256u << 20;
+
+// Where an item stands: its text, the names in force, the space, what surrounding groups settled.
+struct Site {
+  const syntax::SyntaxTree* tree = nullptr;
+  std::shared_ptr<eval::Scope> scope;
+  std::vector<std::string>* included = nullptr;  // files brought into this scope
+  Transform world_from_local{};
+  scene::MaterialId material{};  // of groups and places around; invalid: none
+  bool visible = true;
+  bool in_object = false;  // settings and cameras are refused
+};
+
+// A value given by --set, waiting for its `let`.
+struct Override {
+  syntax::SymbolId symbol;
+  syntax::ParsedExpression parsed;
+  Span span;
+  bool used = false;
+};
+
+// Files brought in by `include`.
+struct Includes {
+  std::map<std::string, std::unique_ptr<syntax::SyntaxTree>> trees;  // by canonical path; null: unreadable
+  std::vector<std::string> open;                                     // being run, outermost first
+};
+
+// A light in the space of the object that holds it, as read, and how it gets there.
+struct ObjectLight {
+  optics::Light light;
+  Transform object_from_light;
+  Span definition;
+  std::string_view statement;
+};
+
+// What an object holds, while or after its body is run.
+struct BuiltObject {
+  scene::Prototype things;
+  std::vector<ObjectLight> lights;
+  bool inherits_material = false;      // something in it names no material
+  bool sets_variable = false;          // a variable from outside, so each placement must run the body again
+  const eval::Scope* scope = nullptr;  // of its body, while it is run
+};
+
+// An object that is placed by its prototype from now on.
+struct KnownObject {
+  eval::Value value;  // keeps the address from being used again
+  scene::PrototypeId prototype;
+  std::vector<ObjectLight> lights;
+  bool inherits_material = false;
+};
+
+struct Run {
+  Run(const syntax::SyntaxTree& tree, Sources& sources_, syntax::Symbols& symbols_, const Options& options_,
+      Diagnostics& diagnostics_);
+
+  Sources& sources;
+  syntax::Symbols& symbols;
+  const Options& options;
+  Diagnostics& diagnostics;
+  const syntax::SyntaxTree* main;
+  Includes includes;  // before the context: values of the run point into the trees
+  std::vector<Override> overrides;
+  eval::Context context;
+  eval::Evaluator evaluator;
+  const Schemas schemas;
+  const Statements statements;
+
+  scene::Scene scene;
+  Span render, animation, camera;            // where they stand, once met
+  std::optional<scene::Animation> foreseen;  // as read before all else; decides frame and time
+  std::shared_ptr<eval::Scope> file_scope;
+  std::vector<syntax::SymbolId> file_lets;  // candidates for --set
+  Bodies bodies;
+  PassedOver passed_over;
+  std::unordered_set<const syntax::ThingExpr*> warned_meshes;
+  BuiltObject* building =
+      nullptr;  // takes the things of the object whose body is being run; null: the scene does
+  std::unordered_map<const eval::Heavy*, KnownObject> objects;  // by their values' addresses
+
+  int template_depth = 0, block_depth = 0;
+  long repetitions = 0;
+  bool stopped = false;  // a limit was met: nothing more is run
+
+  std::vector<scene::ShapeInstance>& shapes() { return building ? building->things.shapes : scene.shapes; }
+  std::vector<scene::Volume>& volumes() { return building ? building->things.volumes : scene.volumes; }
+  std::vector<scene::Instance>& instances() {
+    return building ? building->things.instances : scene.instances;
+  }
+
+  // Counts rounds of a loop or calls; false, after an error at `span`, when they are too many.
+  bool may_repeat(double rounds, Span span);
+  bool finished() const { return stopped || diagnostics.full(); }
+};
+
+// Whether a block's parameters (`transform: …`) have been read already, or have no business there.
+enum class Parameters : bool { refused, read };
+
+// Runs the items of a block where `site` stands, in order.
+void run_block(Run& run, const Site& site, syntax::BlockId block,
+               Parameters parameters = Parameters::refused);
+// Runs them in a new scope below the site's.
+void run_inner_block(Run& run, const Site& site, syntax::BlockId block,
+                     Parameters parameters = Parameters::refused);
+
+// items.cpp, calls.cpp, include.cpp
+void run_item(Run& run, const Site& site, const syntax::Item& item);
+void run_for(Run& run, const Site& site, const syntax::ForItem& loop);
+void run_call(Run& run, const Site& site, const syntax::CallItem& call);
+void run_place(Run& run, const Site& site, const syntax::PlaceItem& place);
+void run_include(Run& run, const Site& site, const syntax::IncludeItem& include);
+
+// The name of the main file among the included ones.
+std::string main_file_key(const Run& run);
+
+// Binds a `let` at the top level of a file: its value, or what --set says instead.
+void define_file_let(Run& run, eval::Evaluator& evaluator, const syntax::SyntaxTree& tree,
+                     const syntax::Item& item, const syntax::LetItem& let,
+                     const std::shared_ptr<eval::Scope>& scope);
+
+// Adds a light to the scene or the object being built; an error when its shape does not survive the map to
+// the world.
+void add_light(Run& run, ObjectLight light, const Transform& world_from_light);
+
+// The space of a thing with this transform where `site` stands; nothing, after an error, when the product
+// flattens.
+std::optional<Transform> placed(Reader& reader, const Site& site, const Transform& transform);
+
+}  // namespace tyndall::resolve

@@ -1,0 +1,139 @@
+// The rows of the statement table, and what is said when no row fits.
+#include "resolve/statements.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "resolve/reader.h"
+#include "resolve/run.h"
+
+namespace tyndall::resolve {
+
+namespace {
+
+template <class T>
+scene::Shape read_shape(Run&, Reader& reader) {
+  return reader.read_valid<T>();
+}
+
+template <class T>
+Statement shape(bool closed) {
+  return {T::keyword, {}, {}, run_shape, read_shape<T>, closed};
+}
+template <class T>
+Statement light() {
+  return {T::keyword, {}, {}, run_light<T>};
+}
+template <class T>
+Statement camera() {
+  return {T::keyword, {}, {}, run_camera<T>};
+}
+
+std::vector<Statement> all_statements() {
+  return {
+      {RenderParameters::keyword, {}, {}, run_render},
+      {AnimationParameters::keyword, {}, {}, run_animation},
+      camera<scene::PerspectiveCamera>(),
+      camera<scene::OrthographicCamera>(),
+      camera<scene::SphericalCamera>(),
+      light<optics::PointLight>(),
+      light<optics::SpotLight>(),
+      light<optics::DistantLight>(),
+      light<optics::SphereLight>(),
+      light<optics::QuadLight>(),
+      light<optics::DiskLight>(),
+      {"light mesh"},
+      light<optics::EnvironmentLight>(),
+      shape<scene::Sphere>(true),
+      shape<scene::Box>(true),
+      shape<scene::Plane>(false),
+      shape<scene::Quad>(false),
+      shape<scene::Disk>(false),
+      shape<scene::Cylinder>(true),
+      {scene::Mesh::keyword, {}, {}, run_shape, read_mesh, true},
+      {"curves"},
+      {"gltf"},
+      {VolumeParameters::keyword, {}, {}, run_volume},
+      {GroupParameters::keyword, {}, {}, run_group},
+  };
+}
+
+// The words after which a kind stands.
+std::vector<std::string_view> kinds_of(const Statements& statements, std::string_view keyword) {
+  std::vector<std::string_view> kinds;
+  for (const Statement& row : statements.rows())
+    if (row.name.size() > keyword.size() && row.name.starts_with(keyword) && row.name[keyword.size()] == ' ')
+      kinds.push_back(row.name.substr(keyword.size() + 1));
+  return kinds;
+}
+
+// The way out for a word that is no statement: what the scene itself defines under it, or what resembles it.
+std::string help_for(Run& run, const Site& site, const syntax::ThingItem& thing) {
+  const std::string_view word = run.symbols.text(thing.keyword.symbol);
+  if (const eval::Binding* binding = site.scope->find(thing.keyword.symbol)) {
+    if (binding->value.type == eval::Type::object) return fmt::format("write `place {} {{ … }}`", word);
+    if (binding->value.type == eval::Type::function)
+      return fmt::format("a template is called: `{}(…)`", word);
+  }
+  std::vector<std::string_view> words;
+  for (const Statement& row : run.statements.rows()) words.push_back(row.name.substr(0, row.name.find(' ')));
+  for (const eval::Scope* scope = site.scope.get(); scope; scope = scope->parent.get())
+    for (const eval::Binding& binding : scope->bindings)
+      if (binding.value.type == eval::Type::function || binding.value.type == eval::Type::object)
+        words.push_back(run.symbols.text(binding.symbol));
+  return did_you_mean(word, words);
+}
+
+void report_unknown(Run& run, const Site& site, const syntax::ThingItem& thing) {
+  const std::string_view word = run.symbols.text(thing.keyword.symbol);
+  const std::vector<std::string_view> kinds = kinds_of(run.statements, word);
+  if (!kinds.empty()) {
+    const std::string list = fmt::format("{}", fmt::join(kinds, ", "));
+    if (!thing.kind.symbol.valid())
+      return run.diagnostics.error(thing.keyword.span, fmt::format("'{}' needs a kind", word),
+                                   fmt::format("one of: {}", list));
+    const std::string_view kind = run.symbols.text(thing.kind.symbol);
+    std::string help = did_you_mean(kind, kinds);
+    if (help.empty()) help = fmt::format("one of: {}", list);
+    return run.diagnostics.error(thing.kind.span, fmt::format("no kind of '{}' called '{}'", word, kind),
+                                 std::move(help));
+  }
+  if (thing.kind.symbol.valid() && run.statements.find(thing.keyword.symbol, {}))
+    return run.diagnostics.error(thing.kind.span, fmt::format("'{}' has no kinds", word),
+                                 fmt::format("write `{} {{ … }}`", word));
+  run.diagnostics.error(thing.keyword.span, fmt::format("no statement '{}'", word),
+                        help_for(run, site, thing));
+}
+
+}  // namespace
+
+Statements::Statements(syntax::Symbols& symbols) : rows_(all_statements()) {
+  for (Statement& row : rows_) {
+    const std::size_t space = row.name.find(' ');
+    row.keyword = symbols.intern(row.name.substr(0, space));
+    if (space != std::string_view::npos) row.kind = symbols.intern(row.name.substr(space + 1));
+  }
+}
+
+const Statement* Statements::find(syntax::SymbolId keyword, syntax::SymbolId kind) const {
+  const auto row = std::find_if(rows_.begin(), rows_.end(),
+                                [&](const Statement& s) { return s.keyword == keyword && s.kind == kind; });
+  return row == rows_.end() ? nullptr : &*row;
+}
+
+Span header(const syntax::ThingItem& thing) {
+  return thing.kind.symbol.valid() ? join(thing.keyword.span, thing.kind.span) : thing.keyword.span;
+}
+
+void run_thing(Run& run, const Site& site, const syntax::ThingItem& thing) {
+  const Statement* row = run.statements.find(thing.keyword.symbol, thing.kind.symbol);
+  if (!row) return report_unknown(run, site, thing);
+  if (!row->run)
+    return run.diagnostics.error(header(thing), fmt::format("'{}' is not available yet", row->name));
+  if (thing.file.valid())
+    return run.diagnostics.error((*site.tree)[thing.file].span, fmt::format("'{}' takes no file", row->name));
+  row->run(run, site, thing, *row);
+}
+
+}  // namespace tyndall::resolve

@@ -1,0 +1,57 @@
+// A medium as the renderer knows it: two programs and what their outputs mean.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/id.h"
+#include "base/source.h"
+#include "base/vec.h"
+#include "optics/phase.h"
+#include "vm/program.h"
+
+namespace tyndall::scene {
+
+// Indices into a program's outputs, for red, green and blue. Grey quantities name the same output three
+// times.
+using RgbOutputs = std::array<std::uint8_t, 3>;
+
+// A lobe of the phase mixture. Each number is a constant, or the index of an output of the full program.
+struct PhaseLobe {
+  struct Number {
+    float value = 0;
+    std::optional<std::uint8_t> output{};  // set: read from the segment instead of `value`
+  };
+  optics::PhaseKind kind{};
+  std::array<Number, 2> parameters{};
+  Number weight{1};
+};
+
+// Coefficients are per metre of world space, density already multiplied in.
+struct Medium {
+  std::string name;
+  Span definition;
+
+  vm::Program full;  // all outputs
+  RgbOutputs sigma_s{}, sigma_t{};
+  std::optional<RgbOutputs> emission;  // absent: emits nothing
+  std::vector<PhaseLobe> phase;        // weights sum to 1; empty when nothing scatters
+
+  vm::Program extinction;  // sigma_t only, for transmittance: outputs are named by `extinction_sigma_t`
+  RgbOutputs extinction_sigma_t{};
+
+  // Source places of the `density`, `albedo`, … statements, for reports on bad values: one per output of
+  // `full`.
+  std::vector<Span> output_spans;
+
+  // True when every coefficient is one value for the whole ray (constants, or functions of time alone).
+  bool homogeneous() const;
+  bool scatters() const { return !phase.empty(); }
+};
+
+using MediumId = Id<Medium>;
+
+}  // namespace tyndall::scene

@@ -1,0 +1,60 @@
+// Ready-made parts of scenes: constant media and plain materials.
+#include <algorithm>
+
+#include "scene/scene.h"
+
+namespace tyndall::scene {
+
+namespace {
+
+// Adds the constants of a colour to a program's outputs, one output when it is grey.
+RgbOutputs add_constant_outputs(vm::Program& program, const Rgb& c) {
+  RgbOutputs outputs{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i > 0 && c[i] == c[i - 1]) {
+      outputs[i] = outputs[i - 1];
+      continue;
+    }
+    outputs[i] = static_cast<std::uint8_t>(program.outputs.size());
+    program.outputs.push_back(static_cast<vm::Operand>(program.constants.size()));
+    program.constants.push_back(c[i]);
+  }
+  return outputs;
+}
+
+bool all_uniform(const vm::Program& program) {
+  return std::all_of(program.outputs.begin(), program.outputs.end(),
+                     [&](vm::Operand output) { return program.uniform(output); });
+}
+
+}  // namespace
+
+bool Medium::homogeneous() const { return all_uniform(full); }
+
+MaterialId add_diffuse(Scene& scene, const Rgb& base_color, const Rgb& emission) {
+  Material material;
+  material.name = "diffuse";
+  material.base_color = add_constant_outputs(material.program, base_color);
+  if (!is_black(emission)) material.emission = add_constant_outputs(material.program, emission);
+  material.output_spans.resize(material.program.outputs.size());
+  scene.materials.push_back(std::move(material));
+  return MaterialId(scene.materials.size() - 1);
+}
+
+MediumId add_constant_medium(Scene& scene, const ConstantMedium& given) {
+  Medium medium;
+  medium.name = "constant";
+  medium.sigma_s = add_constant_outputs(medium.full, given.sigma_s);
+  medium.sigma_t = add_constant_outputs(medium.full, given.sigma_t);
+  if (!is_black(given.emission)) medium.emission = add_constant_outputs(medium.full, given.emission);
+  medium.extinction_sigma_t = add_constant_outputs(medium.extinction, given.sigma_t);
+  medium.output_spans.resize(medium.full.outputs.size());
+  if (!is_black(given.sigma_s)) {
+    medium.phase = given.phase;
+    if (medium.phase.empty()) medium.phase.push_back(PhaseLobe{});
+  }
+  scene.media.push_back(std::move(medium));
+  return MediumId(scene.media.size() - 1);
+}
+
+}  // namespace tyndall::scene

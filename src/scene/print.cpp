@@ -1,0 +1,211 @@
+// The scene as text, every number in shortest exact form: `inspect --stage scene`, and what the scene hash is
+// of. Places in the source are left out: a scene's print does not change with its layout.
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "scene/scene.h"
+
+namespace tyndall::scene {
+
+namespace {
+
+class Printer {
+ public:
+  void line(std::string_view words) { fmt::format_to(out(), "{}\n", words); }
+  template <class T>
+  void item(std::string_view name, const T& value) {
+    fmt::format_to(out(), "  {} ", name);
+    put(value);
+    put_text("\n");
+  }
+  template <class T>
+  void item(std::string_view name, const std::optional<T>& value) {
+    if (value) item(name, *value);
+  }
+  // Every parameter that a struct's fields() names; optional ones only when they were given.
+  template <class T>
+  void fields(const T& thing) {
+    T::fields([&](auto member, const FieldInfo& info) { item(info.name, thing.*member); });
+  }
+  void program(std::string_view name, const vm::Program& program);
+  void count(std::string_view what, std::size_t n) { fmt::format_to(out(), "{} {}", what, n); }
+  void put_text(std::string_view text) { buffer_.append(text); }
+
+  std::string text() const { return fmt::to_string(buffer_); }
+
+ private:
+  std::back_insert_iterator<fmt::memory_buffer> out() { return std::back_inserter(buffer_); }
+
+  void put(double v) { fmt::format_to(out(), "{}", v); }
+  void put(int v) { fmt::format_to(out(), "{}", v); }
+  void put(std::uint64_t v) { fmt::format_to(out(), "{}", v); }
+  void put(std::uint32_t v) { fmt::format_to(out(), "{}", v); }
+  void put(bool v) { put_text(v ? "true" : "false"); }
+  void put(const Angle& a) { fmt::format_to(out(), "{}rad", a.radians); }
+  void put(std::string_view v) { put_text(v); }
+  template <class T>
+  void put(const Vec3<T>& v) {
+    fmt::format_to(out(), "({}, {}, {})", v.x, v.y, v.z);
+  }
+  void put(const Transform& t) {
+    if (t == Transform{}) return put_text("identity");
+    put_text("x ");
+    put(t.x);
+    put_text(" y ");
+    put(t.y);
+    put_text(" z ");
+    put(t.z);
+    put_text(" t ");
+    put(t.t);
+  }
+  void put(const MeshId& m) { put(m.index); }
+  void put(const Pair<double>& v) { fmt::format_to(out(), "({}, {})", v.x, v.y); }
+  void put(const std::array<std::uint32_t, 3>& v) { fmt::format_to(out(), "({}, {}, {})", v[0], v[1], v[2]); }
+  void put(const RgbOutputs& o) { fmt::format_to(out(), "outputs {} {} {}", o[0], o[1], o[2]); }
+  void put(const PhaseLobe::Number& n) {
+    if (n.output)
+      fmt::format_to(out(), "output {}", *n.output);
+    else
+      fmt::format_to(out(), "{}", n.value);
+  }
+  void put(const PhaseLobe& lobe) {
+    put_text(optics::keyword(lobe.kind));
+    put_text(" (");
+    put(lobe.parameters[0]);
+    put_text(", ");
+    put(lobe.parameters[1]);
+    put_text(") weight ");
+    put(lobe.weight);
+  }
+
+  fmt::memory_buffer buffer_;
+};
+
+// The listing, two spaces in.
+void Printer::program(std::string_view name, const vm::Program& program) {
+  fmt::format_to(out(), "  {}\n", name);
+  const std::string listing = vm::print(program);
+  std::string_view rest = listing;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('\n');
+    fmt::format_to(out(), "    {}\n", rest.substr(0, end));
+    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
+  }
+}
+
+void print_settings(Printer& p, const Scene& scene) {
+  const RenderSettings& s = scene.settings;
+  p.line(RenderSettings::keyword);
+  p.item("width", s.width);
+  p.item("height", s.height);
+  p.item("samples", s.samples);
+  p.item("step", s.step);
+  p.item("light_samples", s.light_samples);
+  p.item("bounces", s.bounces);
+  p.item("seed", s.seed);
+  p.line(Animation::keyword);
+  p.item("fps", scene.animation.fps);
+  p.item("first_frame", scene.animation.first_frame);
+  p.item("last_frame", scene.animation.last_frame);
+  p.item("shutter", scene.animation.shutter);
+  p.item("frame", scene.frame);
+  p.item("time", scene.time);
+}
+
+void print_medium(Printer& p, const Medium& m) {
+  p.item("name", m.name);
+  p.item("sigma_s", m.sigma_s);
+  p.item("sigma_t", m.sigma_t);
+  p.item("emission", m.emission);
+  for (const PhaseLobe& lobe : m.phase) p.item("phase", lobe);
+  p.program("full", m.full);
+  p.item("extinction_sigma_t", m.extinction_sigma_t);
+  p.program("extinction", m.extinction);
+}
+
+void print_material(Printer& p, const Material& m) {
+  p.item("name", m.name);
+  p.item("base_color", m.base_color);
+  p.item("emission", m.emission);
+  p.program("program", m.program);
+}
+
+// The keyword of a variant's alternative on a line, and its fields.
+template <class Variant>
+void print_variant(Printer& p, const Variant& variant) {
+  std::visit(
+      [&](const auto& thing) {
+        p.line(thing.keyword);
+        p.fields(thing);
+      },
+      variant);
+}
+
+// The shapes, volumes and instances of a scene or a prototype.
+template <class Things>
+void print_things(Printer& p, const Things& things) {
+  const auto material = [&](MaterialId id) {
+    if (id.valid()) p.item("material", id.index);
+  };
+  for (const ShapeInstance& s : things.shapes) {
+    print_variant(p, s.shape);
+    p.item("world_from_object", s.world_from_object);
+    material(s.material);
+    p.item("visible", s.visible);
+  }
+  for (const Volume& v : things.volumes) {
+    p.put_text("volume in ");
+    print_variant(p, v.shape);
+    p.item("world_from_shape", v.world_from_shape);
+    p.item("world_from_medium", v.world_from_medium);
+    p.item("medium", v.medium.index);
+    p.item("step", v.step);
+    p.item("visible", v.visible);
+  }
+  for (const Instance& i : things.instances) {
+    p.line("instance");
+    p.item("prototype", i.prototype.index);
+    p.item("world_from_object", i.world_from_object);
+    material(i.material);
+    p.item("visible", i.visible);
+  }
+}
+
+}  // namespace
+
+std::string print(const Scene& scene) {
+  Printer p;
+  print_settings(p, scene);
+  print_variant(p, scene.camera);
+  for (std::size_t i = 0; i < scene.media.size(); ++i) {
+    p.count("medium", i);
+    p.line("");
+    print_medium(p, scene.media[i]);
+  }
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    p.count("material", i);
+    p.line("");
+    print_material(p, scene.materials[i]);
+  }
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    p.count("mesh", i);
+    p.line("");
+    for (const Vec3d& point : scene.meshes[i].points) p.item("point", point);
+    for (const auto& triangle : scene.meshes[i].triangles) p.item("triangle", triangle);
+    for (const Vec3d& normal : scene.meshes[i].normals) p.item("normal", normal);
+    for (const Pair<double>& uv : scene.meshes[i].uvs) p.item("uv", uv);
+  }
+  for (std::size_t i = 0; i < scene.prototypes.size(); ++i) {
+    p.count("prototype", i);
+    p.line("");
+    p.item("name", scene.prototypes[i].name);
+    print_things(p, scene.prototypes[i]);
+    p.line("end");
+  }
+  print_things(p, scene);
+  for (const LightInstance& l : scene.lights) print_variant(p, l.light);
+  return p.text();
+}
+
+}  // namespace tyndall::scene

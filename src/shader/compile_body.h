@@ -1,0 +1,27 @@
+// Medium and material bodies to programs.
+#pragma once
+
+#include <optional>
+
+#include "eval/evaluator.h"
+#include "eval/value.h"
+#include "scene/scene.h"
+
+namespace tyndall::shader {
+
+struct Options {
+  bool fold = true;  // off: constants stay computations, for tests that compare
+};
+
+// Runs the body with p, P, time as inputs, checks which outputs it sets (language.md "Medium": either albedo
+// with optional extinction, or scattering and absorption; an output set in one branch must be set in all),
+// multiplies by density, and compiles the two programs. Nothing after an error.
+std::optional<scene::Medium> compile_medium(eval::Context& context, const eval::Body& body,
+                                            const Options& options);
+
+// The same for base_color and emission; inputs p n P N uv time. Other outputs of the language are read,
+// checked, and warned of: surfaces are diffuse until a later issue.
+std::optional<scene::Material> compile_material(eval::Context& context, const eval::Body& body,
+                                                const Options& options);
+
+}  // namespace tyndall::shader

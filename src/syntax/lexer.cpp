@@ -1,0 +1,134 @@
+// Text to tokens: the loop, words, comments and punctuation. Grammar: grammar/tyndall.ebnf, "Words".
+#include "syntax/lexer.h"
+
+#include <fmt/format.h>
+
+#include "base/check.h"
+
+namespace tyndall::syntax {
+
+TokenList lex(const Sources& sources, SourceId source, Diagnostics& diagnostics) {
+  return Lexer(sources, source, diagnostics).run();
+}
+
+TokenList Lexer::run() {
+  CHECK_LT(text_.size(), std::size_t{0xffffffff});
+  if (!not_text()) {
+    if (starts_with("\xef\xbb\xbf")) at_ = 3;  // a byte order mark says UTF-8, which we know
+    while (!at_end()) next_token();
+    end_interpolations();
+    report_habits();
+  }
+  at_ = static_cast<std::uint32_t>(text_.size());
+  emit(TokenKind::end_of_file, at_);
+  return std::move(out_);
+}
+
+void Lexer::next_token() {
+  const char c = peek();
+  if (!interpolations_.empty() && inside_interpolation(c)) return;
+  if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
+    ++at_;
+  } else if (is_word_begin(c)) {
+    word();
+  } else if (is_digit(c) || (c == '.' && is_digit(peek(1)))) {
+    number();
+  } else if (c == '"') {
+    string(at_, TokenKind::string, TokenKind::string_head);
+  } else if (!skip_comment()) {
+    punctuation();
+  }
+}
+
+void Lexer::word() {
+  const std::uint32_t begin = at_;
+  while (is_word_part(peek())) ++at_;
+  if (static_cast<unsigned char>(peek()) >= 0x80 && decode_utf8(text_, at_).valid) {
+    at_ = begin;
+    return foreign_character();
+  }
+  const std::string_view text = text_.substr(begin, at_ - begin);
+  if (text.size() > max_word_bytes)
+    return fail(begin, fmt::format("this name has {} characters", text.size()),
+                fmt::format("a name may have {}", max_word_bytes));
+  emit(word_kind(text), begin);
+}
+
+// Skips a comment if one begins here.
+bool Lexer::skip_comment() {
+  const std::uint32_t begin = at_;
+  if (starts_with("//")) {
+    while (!at_end() && peek() != '\n') ++at_;
+  } else if (starts_with("/*")) {
+    block_comment();
+  } else {
+    return false;
+  }
+  out_.comments.push_back(span_from(begin));
+  comment_text(begin);
+  return true;
+}
+
+// A comment may hold any text, but text it must be.
+void Lexer::comment_text(std::uint32_t begin) {
+  const std::uint32_t end = at_;
+  for (at_ = begin; at_ < end;) {
+    const auto c = static_cast<unsigned char>(peek());
+    const CodePoint point = c < 0x80 ? CodePoint{} : decode_utf8(text_, at_);
+    if (c >= 0x80 && !point.valid) {
+      undecodable();
+    } else {
+      const std::uint32_t place = at_;
+      at_ += c < 0x80 ? 1 : point.bytes;
+      if (c < 0x20 && c != '\t' && c != '\n' && c != '\r') count(control_characters_, place);
+    }
+  }
+}
+
+void Lexer::block_comment() {
+  const std::uint32_t begin = at_;
+  std::uint32_t depth = 0;
+  while (!at_end()) {
+    if (starts_with("/*")) {
+      ++depth;
+      at_ += 2;
+    } else if (starts_with("*/")) {
+      at_ += 2;
+      if (--depth == 0) return;
+    } else {
+      ++at_;
+    }
+  }
+  diagnostics_.error(
+      {source_, begin, begin + 2}, "this comment is never closed",
+      depth > 1 ? fmt::format("comments nest: {} '*/' are missing", depth) : "close it with '*/'");
+}
+
+void Lexer::punctuation() {
+  struct Mark {
+    std::string_view text;
+    TokenKind kind;
+  };
+  // Longer marks before their beginnings.
+  static constexpr Mark marks[] = {
+      {"..<", TokenKind::dot_dot_less}, {"..", TokenKind::dot_dot},     {"<=", TokenKind::less_equal},
+      {">=", TokenKind::greater_equal}, {"==", TokenKind::equal_equal}, {"!=", TokenKind::not_equal},
+      {"(", TokenKind::left_paren},     {")", TokenKind::right_paren},  {"[", TokenKind::left_bracket},
+      {"]", TokenKind::right_bracket},  {"{", TokenKind::left_brace},   {"}", TokenKind::right_brace},
+      {",", TokenKind::comma},          {":", TokenKind::colon},        {".", TokenKind::dot},
+      {"=", TokenKind::equals},         {"+", TokenKind::plus},         {"-", TokenKind::minus},
+      {"*", TokenKind::star},           {"/", TokenKind::slash},        {"^", TokenKind::caret},
+      {"<", TokenKind::less},           {">", TokenKind::greater},
+  };
+  if (mistaken_mark()) return;
+  const std::uint32_t begin = at_;
+  for (const Mark& mark : marks) {
+    if (!starts_with(mark.text)) continue;
+    at_ += static_cast<std::uint32_t>(mark.text.size());
+    emit(mark.kind, begin);
+    return;
+  }
+  mistaken_character();
+}
+
+}  // namespace tyndall::syntax

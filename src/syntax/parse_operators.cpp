@@ -1,0 +1,177 @@
+// Operators: the precedence table, and the productions that climb it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "syntax/recursive_parser.h"
+
+namespace tyndall::syntax {
+
+namespace {
+
+// Binding levels, loosest first (docs: language, "Values"). `if` is looser than all of them.
+enum Level : int {
+  or_level,
+  and_level,
+  not_level,
+  comparison_level,
+  range_level,
+  sum_level,
+  product_level,
+  unary_level
+};
+
+struct OperatorRow {
+  TokenKind token;
+  Level level;
+  BinaryOp op;
+};
+// Ranges have a node of their own; unary operators and `^`, which bind to the right, have their own
+// productions.
+constexpr OperatorRow operator_table[] = {
+    {TokenKind::kw_or, or_level, BinaryOp::logical_or},
+    {TokenKind::kw_and, and_level, BinaryOp::logical_and},
+    {TokenKind::less, comparison_level, BinaryOp::less},
+    {TokenKind::less_equal, comparison_level, BinaryOp::less_equal},
+    {TokenKind::greater, comparison_level, BinaryOp::greater},
+    {TokenKind::greater_equal, comparison_level, BinaryOp::greater_equal},
+    {TokenKind::equal_equal, comparison_level, BinaryOp::equal},
+    {TokenKind::not_equal, comparison_level, BinaryOp::not_equal},
+    {TokenKind::plus, sum_level, BinaryOp::add},
+    {TokenKind::minus, sum_level, BinaryOp::subtract},
+    {TokenKind::star, product_level, BinaryOp::multiply},
+    {TokenKind::slash, product_level, BinaryOp::divide},
+};
+
+const OperatorRow* find_operator(TokenKind kind) {
+  const auto* row = std::find_if(std::begin(operator_table), std::end(operator_table),
+                                 [kind](const OperatorRow& r) { return r.token == kind; });
+  return row == std::end(operator_table) ? nullptr : row;
+}
+
+}  // namespace
+
+// expression = conditional | disjunction
+ExprId Parser::expression() {
+  if (panic_) return error_expr();
+  if (!enter()) return leave(), error_expr();
+  const ExprId result = at(TokenKind::kw_if) ? conditional() : operators(or_level);
+  leave();
+  return result;
+}
+
+// conditional = "if" header_value "then" expression "else" expression
+ExprId Parser::conditional() {
+  const std::uint32_t first = at_;
+  const Span keyword = take().span;
+  const ExprId condition = header_value();
+  if (!panic_ && !at(TokenKind::kw_then)) {
+    fail(peek().span, fmt::format("expected 'then', found {}", found()),
+         "a choice of values is written: if a then b else c", {{keyword, "the 'if' is here"}});
+  }
+  if (panic_) return error_expr();
+  take();
+  const ExprId then_value = expression();
+  if (!panic_ && !at(TokenKind::kw_else))
+    fail(peek().span, fmt::format("expected 'else', found {}", found()),
+         "a choice of values is written: if a then b else c", {{keyword, "the 'if' is here"}});
+  if (panic_) return error_expr();
+  take();
+  const ExprId else_value = expression();
+  return add(first, ConditionalExpr{condition, then_value, else_value},
+             1 + std::max({height(condition), height(then_value), height(else_value)}));
+}
+
+// disjunction = conjunction { "or" conjunction };  conjunction = negation { "and" negation };
+// sum = product { ( "+" | "-" ) product };  product = unary { ( "*" | "/" ) unary }
+// Reads the operators of the level `loosest` and of all that bind tighter.
+ExprId Parser::operators(int loosest) {
+  const std::uint32_t first = at_;
+  ExprId left = prefix(loosest);
+  while (!panic_) {
+    const bool is_range = at(TokenKind::dot_dot) || at(TokenKind::dot_dot_less);
+    const OperatorRow* row = find_operator(kind());
+    if (row == nullptr && !is_range) break;
+    const int level = is_range ? range_level : row->level;
+    if (level < loosest) break;
+    if (level == range_level || level == comparison_level) {
+      left = comparison_or_range(left, first, level);
+      continue;
+    }
+    take();
+    const ExprId right = operators(level + 1);
+    left = add(first, BinaryExpr{row->op, left, right}, 1 + std::max(height(left), height(right)));
+  }
+  return left;
+}
+
+// The first operand of a level: negation = "not" negation | comparison; looser operators need parentheses
+// here.
+ExprId Parser::prefix(int loosest) {
+  if (at(TokenKind::kw_if)) {
+    note_mistake(peek().span, "'if' inside an operation needs parentheses", "write a + (if b then c else d)");
+    return expression();
+  }
+  if (!at(TokenKind::kw_not)) return unary();
+  if (loosest > not_level)
+    note_mistake(peek().span, "'not' inside an operation needs parentheses", "write a == (not b)");
+  if (!enter()) return leave(), error_expr();
+  const std::uint32_t first = at_;
+  take();
+  const ExprId operand = operators(not_level);
+  leave();
+  return add(first, UnaryExpr{UnaryOp::logical_not, operand}, 1 + height(operand));
+}
+
+// comparison = range [ comparator range ];  comparator = "<" | "<=" | ">" | ">=" | "==" | "!="
+// range = sum [ ( ".." | "..<" ) sum [ ".." sum ] ]
+ExprId Parser::comparison_or_range(ExprId left, std::uint32_t first_token, int level) {
+  const Token& token = take();
+  const ExprId right = operators(level + 1);
+  if (level == comparison_level) {
+    const ExprId result = add(first_token, BinaryExpr{find_operator(token.kind)->op, left, right},
+                              1 + std::max(height(left), height(right)));
+    if (const OperatorRow* next = find_operator(kind()); next != nullptr && next->level == comparison_level)
+      note_mistake(peek().span, "comparisons cannot be chained", "write a < b and b < c");
+    return result;
+  }
+  ExprId step;
+  std::uint32_t tallest = std::max(height(left), height(right));
+  if (!panic_ && (at(TokenKind::dot_dot) || at(TokenKind::dot_dot_less))) {
+    if (at(TokenKind::dot_dot_less))
+      note_mistake(peek().span, "the step of a range follows '..'", "write a..<b..step");
+    take();
+    step = operators(level + 1);
+    tallest = std::max(tallest, height(step));
+    if (at(TokenKind::dot_dot) || at(TokenKind::dot_dot_less))
+      note_mistake(peek().span, "a range has at most three parts", "write first..last..step");
+  }
+  return add(first_token, RangeExpr{left, right, step, token.kind == TokenKind::dot_dot_less}, 1 + tallest);
+}
+
+// unary = "-" unary | power
+ExprId Parser::unary() {
+  if (panic_) return error_expr();
+  if (!at(TokenKind::minus)) return power();
+  const std::uint32_t first = at_;
+  if (!enter()) return leave(), error_expr();
+  take();
+  const ExprId operand = unary();
+  leave();
+  return add(first, UnaryExpr{UnaryOp::negate, operand}, 1 + height(operand));
+}
+
+// power = postfix [ "^" unary ]
+ExprId Parser::power() {
+  const std::uint32_t first = at_;
+  const ExprId base = postfix();
+  if (panic_ || !at(TokenKind::caret)) return base;
+  if (!enter()) return leave(), error_expr();
+  take();
+  const ExprId exponent = unary();
+  leave();
+  return add(first, BinaryExpr{BinaryOp::power, base, exponent},
+             1 + std::max(height(base), height(exponent)));
+}
+
+}  // namespace tyndall::syntax

@@ -1,0 +1,226 @@
+// Values: literals, names, things, brackets, and what may follow a value: call, index, member.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "syntax/recursive_parser.h"
+
+namespace tyndall::syntax {
+
+// postfix = value { "(" [ arguments ] ")" | "[" expression "]" | "." name }
+ExprId Parser::postfix() {
+  const std::uint32_t first = at_;
+  ExprId result = value();
+  while (!panic_) {
+    if (at(TokenKind::left_paren) && callable(result))
+      result = call(result, first);
+    else if (at(TokenKind::left_bracket))
+      result = index(result, first);
+    else if (at(TokenKind::dot))
+      result = member(result, first);
+    else
+      break;
+  }
+  return result;
+}
+
+// A literal, a sum or a thing is never a function: `(` after it begins something else (a comma may be
+// missing).
+bool Parser::callable(ExprId e) const {
+  const ExprNode& node = tree_[e].node;
+  return std::holds_alternative<NameExpr>(node) || std::holds_alternative<CallExpr>(node) ||
+         std::holds_alternative<IndexExpr>(node) || std::holds_alternative<MemberExpr>(node) ||
+         std::holds_alternative<ConditionalExpr>(node) || std::holds_alternative<ErrorExpr>(node);
+}
+
+// value = literal | string | name | thing | tuple | "(" expression ")" | list | unnamed_body
+ExprId Parser::value() {
+  if (at(TokenKind::number) || at(TokenKind::color) || at(TokenKind::kw_true) || at(TokenKind::kw_false))
+    return literal();
+  if (at(TokenKind::string) || at(TokenKind::string_head)) return string_value();
+  if (at(TokenKind::name)) return name_or_thing();
+  if (at(TokenKind::left_paren)) return tuple_or_group();
+  if (at(TokenKind::left_bracket)) return list();
+  if (at(TokenKind::left_brace) && !brace_opens_body_) return unnamed_body();
+  if (at(TokenKind::less)) return angle_bracket_vector();
+  return not_a_value();
+}
+
+ExprId Parser::not_a_value() {
+  std::string help;
+  if (at(TokenKind::plus)) help = "leave the '+' out";
+  if (at(TokenKind::equals)) help = "comparison is '=='";
+  if (at(TokenKind::kw_medium) || at(TokenKind::kw_material))
+    help = fmt::format("an unnamed body is written {}: {{ … }}", spelling(kind()));
+  const std::string_view noun = is_reserved(kind()) ? "the reserved word " : "";
+  fail(peek().span, fmt::format("expected a value, found {}{}", noun, found()), std::move(help));
+  return error_expr();
+}
+
+// unnamed_body = block, as in `medium: { density = 1 }`
+ExprId Parser::unnamed_body() {
+  const std::uint32_t first = at_;
+  const BlockId body = block(BlockPlace::body, "the value");
+  return add(first, ThingExpr{{}, {}, {}, body}, 1 + height(body));
+}
+
+// literal = number | color | "true" | "false"
+ExprId Parser::literal() {
+  const std::uint32_t first = at_;
+  const Token& token = take();
+  if (token.kind == TokenKind::number) return add(first, NumberExpr{token.number, token.unit});
+  if (token.kind == TokenKind::color) return add(first, ColorExpr{token.text});
+  return add(first, BoolExpr{token.kind == TokenKind::kw_true});
+}
+
+// string = '"' { character | escape | "{" expression "}" } '"'
+ExprId Parser::string_value() {
+  const std::uint32_t first = at_;
+  StringValue literal;
+  std::uint32_t tallest = 0;
+  TokenKind last = kind();
+  literal.pieces.push_back(tokens_.strings[take().text]);
+  const bool in_header = std::exchange(brace_opens_body_, false);
+  while (last == TokenKind::string_head || last == TokenKind::string_middle) {
+    literal.values.push_back(expression());
+    tallest = std::max(tallest, height(literal.values.back()));
+    if (!panic_ && !ends_everything())
+      fail(peek().span, fmt::format("expected '}}' after the value in a string, found {}", found()));
+    while (!ends_everything()) skip_group();
+    if (at(TokenKind::end_of_file)) break;  // only after giving up
+    panic_ = false;
+    last = kind();
+    literal.pieces.push_back(tokens_.strings[take().text]);
+  }
+  brace_opens_body_ = in_header;
+  literal.pieces.resize(literal.values.size() + 1);
+  tree_.strings.push_back(std::move(literal));
+  return add(first, StringExpr{static_cast<std::uint32_t>(tree_.strings.size() - 1)}, 1 + tallest);
+}
+
+// value_thing = name [ string ] block, but not in the header of `if` and `for`
+ExprId Parser::name_or_thing() {
+  const std::uint32_t first = at_;
+  const Name name = take_name();
+  const bool file_follows = at(TokenKind::string) || at(TokenKind::string_head);
+  if (brace_opens_body_ || !(at(TokenKind::left_brace) || file_follows))
+    return add(first, NameExpr{name.symbol});
+  ExprId file;
+  if (file_follows) file = string_value();
+  const BlockId body = block(BlockPlace::thing, fmt::format("'{}'", text(name)));
+  return add(first, ThingExpr{name, {}, file, body},
+             1 + std::max(height(body), file.valid() ? height(file) : 0));
+}
+
+// tuple = "(" expression "," expression [ "," expression ] [ "," ] ")"
+ExprId Parser::tuple_or_group() {
+  const std::uint32_t first = at_;
+  std::vector<ExprId> elements;
+  const bool good = comma_list(TokenKind::right_paren, [&] { elements.push_back(expression()); });
+  if (!good) return add(first, ErrorExpr{});
+  const bool trailing_comma = tokens_.tokens[at_ - 2].kind == TokenKind::comma;
+  if (elements.size() == 1 && !trailing_comma) {
+    tree_.exprs[elements[0].index].span = span_from(first);
+    return elements[0];
+  }
+  std::uint32_t tallest = 0;
+  for (const ExprId e : elements) tallest = std::max(tallest, height(e));
+  if (elements.size() == 2 || elements.size() == 3)
+    return add(first, TupleExpr{append(tree_.expr_list, elements)}, 1 + tallest);
+  note_mistake(span_from(first),
+               elements.empty() ? "there is no value in these parentheses"
+                                : fmt::format("{} value{} in parentheses: a pair has 2, a vec 3",
+                                              elements.size(), elements.size() == 1 ? " and a comma" : "s"),
+               elements.size() > 3 ? "a list is written in square brackets" : "");
+  return add(first, ErrorExpr{});
+}
+
+// `<1, 2, 3>`, as other languages write vectors.
+ExprId Parser::angle_bracket_vector() {
+  const std::uint32_t first = at_;
+  take();
+  std::vector<ExprId> elements;
+  bool good = true;
+  do {
+    const std::uint32_t begin = at_;
+    good = good && (begins_value(kind()) || at(TokenKind::minus));
+    if (!good) break;
+    elements.push_back(unary());
+    while (!panic_ && at_ > begin &&
+           (at(TokenKind::plus) || at(TokenKind::minus) || at(TokenKind::star) || at(TokenKind::slash))) {
+      take();
+      unary();
+    }
+  } while (!panic_ && take_if(TokenKind::comma));
+  if (panic_) return error_expr();
+  if (!good || elements.size() < 2 || !at(TokenKind::greater)) {
+    fail(tokens_.tokens[first].span, "expected a value, found '<'", "a vec is written (x, y, z)");
+    return error_expr();
+  }
+  take();
+  note_mistake(span_from(first), "a vec is written in parentheses", "write (x, y, z)");
+  return add(first, ErrorExpr{});
+}
+
+// list = "[" [ expression { "," expression } [ "," ] ] "]"
+ExprId Parser::list() {
+  const std::uint32_t first = at_;
+  std::vector<ExprId> elements;
+  std::uint32_t tallest = 0;
+  const bool good = comma_list(TokenKind::right_bracket, [&] {
+    elements.push_back(expression());
+    tallest = std::max(tallest, height(elements.back()));
+  });
+  if (!good) return add(first, ErrorExpr{});
+  return add(first, ListExpr{append(tree_.expr_list, elements)}, 1 + tallest);
+}
+
+// arguments = argument { "," argument } [ "," ];  argument = [ word ":" ] expression
+ExprId Parser::call(ExprId callee, std::uint32_t first_token) {
+  std::vector<Argument> arguments;
+  std::uint32_t tallest = height(callee);
+  const bool good = comma_list(TokenKind::right_paren, [&] {
+    Name name;
+    const std::uint32_t begin = at_;
+    if (is_word(kind()) && (kind(1) == TokenKind::colon || kind(1) == TokenKind::equals)) {
+      name = take_name();
+      if (at(TokenKind::equals))
+        note_mistake(peek().span, "an argument is given with ':'",
+                     fmt::format("write {}: value; '=' defines or sets a name", text(name)));
+      take();
+    }
+    const ExprId given = expression();
+    tallest = std::max(tallest, height(given));
+    if (!name.symbol.valid() && !arguments.empty() && arguments.back().name.symbol.valid())
+      note_mistake(span_from(begin), "a positional argument after a named one",
+                   "positional arguments come first");
+    arguments.push_back({name, given});
+  });
+  if (!good) return add(first_token, ErrorExpr{});
+  return add(first_token, CallExpr{callee, append(tree_.arguments, arguments)}, 1 + tallest);
+}
+
+ExprId Parser::index(ExprId object, std::uint32_t first_token) {
+  const std::uint32_t open = at_;
+  std::vector<ExprId> elements;
+  const bool good = comma_list(TokenKind::right_bracket, [&] { elements.push_back(expression()); });
+  if (!good) return add(first_token, ErrorExpr{});
+  if (elements.size() != 1) {
+    note_mistake(span_from(open), fmt::format("an index is one value, here are {}", elements.size()),
+                 "if a list is meant, a ',' is missing before '['");
+    return add(first_token, ErrorExpr{});
+  }
+  return add(first_token, IndexExpr{object, elements[0]}, 1 + std::max(height(object), height(elements[0])));
+}
+
+ExprId Parser::member(ExprId object, std::uint32_t first_token) {
+  take();
+  if (!at(TokenKind::name)) {
+    fail(peek().span, fmt::format("expected a name after '.', found {}", found()), "as in p.x or c.bgr");
+    return error_expr();
+  }
+  const Name name = take_name();
+  return add(first_token, MemberExpr{object, name.symbol, name.span}, 1 + height(object));
+}
+
+}  // namespace tyndall::syntax

@@ -1,0 +1,54 @@
+// `tyndall check`: everything short of rendering, for any number of scenes.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tools/commands.h"
+#include "tools/load.h"
+#include "tools/report.h"
+
+namespace tyndall::tools {
+namespace {
+
+struct CheckArguments {
+  std::vector<std::string> scenes;
+  SceneRequest request;  // but for the path
+  bool json = false;
+};
+
+ExitStatus run_check(const CheckArguments& arguments) {
+  bool good = true;
+  nlohmann::json results = nlohmann::json::array();
+  for (const std::string& path : arguments.scenes) {
+    SceneRequest request = arguments.request;
+    request.path = path;
+    const std::unique_ptr<LoadedScene> loaded = load(request);
+    const bool scene_good = !loaded->diagnostics.has_errors();
+    good = good && scene_good;
+    print_diagnostics(loaded->diagnostics, loaded->sources);
+    if (arguments.json) {
+      results.push_back({{"scene", path},
+                         {"good", scene_good},
+                         {"diagnostics", to_json(loaded->diagnostics, loaded->sources)}});
+    } else {
+      print_result(fmt::format("{}: {}\n", path, scene_good ? "good" : "has errors"));
+    }
+  }
+  if (arguments.json) print_json({{"scenes", results}});
+  return good ? ExitStatus::done : ExitStatus::problem;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("check", "Look for every problem in scenes, without rendering");
+  const auto arguments = std::make_shared<CheckArguments>();
+  command->add_option("scenes", arguments->scenes, "The scenes to check")->required()->option_text("SCENE");
+  add_scene_options(*command, arguments->request);
+  command->add_flag("--json", arguments->json, "Print the problems as JSON on standard output");
+  command->callback([arguments, &action] { action = [arguments] { return run_check(*arguments); }; });
+}
+
+}  // namespace tyndall::tools

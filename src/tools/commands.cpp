@@ -1,0 +1,37 @@
+// The command line as a whole: the list of commands, --version, misuse.
+#include "tools/commands.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "tools/report.h"
+
+namespace tyndall::tools {
+
+ExitStatus run(int argc, char** argv) {
+  CLI::App program("Tyndall renders light in fog, smoke, cloud and fire from a scene written as text.",
+                   "tyndall");
+  program.set_version_flag("--version", "tyndall " TYNDALL_VERSION);
+  program.require_subcommand(1);
+  program.get_formatter()->column_width(34);
+
+  Action action;
+  add_render_command(program, action);
+  add_check_command(program, action);
+  add_format_command(program, action);
+  add_inspect_command(program, action);
+  add_compare_command(program, action);
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // `exit` prints the help or version that was asked for (status 0), or the complaint.
+    return program.exit(error) == 0 ? ExitStatus::done : ExitStatus::misuse;
+  }
+  const ExitStatus status = action();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  print_error("cannot write to standard output");
+  return status == ExitStatus::done ? ExitStatus::problem : status;
+}
+
+}  // namespace tyndall::tools

@@ -1,0 +1,54 @@
+// From a scene's path to its tokens, tree and Scene, with every problem met on the way and the time of each
+// stage.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/source.h"
+#include "scene/scene.h"
+#include "syntax/parser.h"
+#include "syntax/token.h"
+#include "syntax/tree.h"
+
+namespace CLI {
+class App;
+}
+
+namespace tyndall::tools {
+
+// Which scene, and what the command line says about reading it.
+struct SceneRequest {
+  std::string path;
+  std::optional<int> frame;
+  std::vector<std::pair<std::string, std::string>> overrides;  // --set NAME=EXPR
+  std::vector<std::string> include_directories;
+};
+
+// Adds --frame, --set and --include to a command.
+void add_scene_options(CLI::App& command, SceneRequest& request);
+
+enum class Stage : std::uint8_t { tokens, tree, scene };
+
+// All that is known of a scene file. Later stages are empty when `last` of load() came before them.
+struct LoadedScene {
+  Sources sources;
+  syntax::Symbols symbols;
+  Diagnostics diagnostics;
+  SourceId source;
+  syntax::TokenList tokens;
+  syntax::SyntaxTree tree;
+  scene::Scene scene;  // fit for use only when the diagnostics have no errors
+  struct Seconds {
+    double read = 0, parse = 0, resolve = 0;
+  } seconds;
+};
+
+// Reads the scene through the stages up to `last`; problems are in its diagnostics.
+std::unique_ptr<LoadedScene> load(const SceneRequest& request, Stage last = Stage::scene);
+
+}  // namespace tyndall::tools

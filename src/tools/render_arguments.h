@@ -1,0 +1,45 @@
+// The options of `tyndall render`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "render/render.h"
+#include "tools/load.h"
+
+namespace tyndall::tools {
+
+// Both ends included, as everywhere on the command line.
+struct SampleRange {
+  int first = 0, last = 0;
+};
+
+struct RenderArguments {
+  SceneRequest scene;
+  std::string output, statistics_file;
+  std::optional<Pair<int>> resolution, pixel;
+  std::optional<render::RenderOptions::Crop> crop;
+  std::optional<int> samples, light_samples, bounces;
+  std::optional<double> step;  // [m]
+  std::optional<std::uint64_t> seed, sample;
+  std::optional<SampleRange> sample_range;
+  int threads = 0;
+  render::Distance distance = render::Distance::mis;
+  bool strict = false, quiet = false, json = false;
+};
+
+// Adds every option of the command, each with its check: a value that cannot be is misuse of the command
+// line.
+void add_render_options(CLI::App& command, RenderArguments& arguments);
+
+// The scene's settings with those of the command line in their place.
+void apply_settings(const RenderArguments& arguments, scene::RenderSettings& settings);
+
+std::string_view name(render::Distance distance);
+
+// The command that renders one sample again and tells what happens on its path, with all options that change
+// it.
+std::string replay_command(const RenderArguments& arguments, int x, int y, std::uint64_t sample);
+
+}  // namespace tyndall::tools

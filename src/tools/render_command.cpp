@@ -1,0 +1,166 @@
+// `tyndall render`: a scene to a picture.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <variant>
+
+#include "compile/compiled_scene.h"
+#include "image/files.h"
+#include "tools/commands.h"
+#include "tools/interrupt.h"
+#include "tools/progress.h"
+#include "tools/report.h"
+#include "tools/run_report.h"
+
+namespace tyndall::tools {
+namespace {
+
+// Prints the problems so far, for people or as JSON; a rendering that ends here has no more to say.
+ExitStatus end_with(const RenderArguments& arguments, const Diagnostics& diagnostics,
+                    const Sources& sources) {
+  print_diagnostics(diagnostics, sources);
+  if (arguments.json) print_json({{"diagnostics", to_json(diagnostics, sources)}});
+  return ExitStatus::problem;
+}
+
+ExitStatus fail(const RenderArguments& arguments, const std::string& message) {
+  print_error(message);
+  if (arguments.json) print_json({{"diagnostics", {{{"severity", "error"}, {"message", message}}}}});
+  return ExitStatus::problem;
+}
+
+ExitStatus misuse(const std::string& message) {
+  print_error(message);
+  return ExitStatus::misuse;
+}
+
+// What can be said against the output files before any work is done.
+std::string output_problem(const RenderArguments& arguments) {
+  if (!arguments.output.empty())
+    if (std::string problem = image::check_writable(arguments.output); !problem.empty()) return problem;
+  if (!arguments.statistics_file.empty()) return image::check_file_creatable(arguments.statistics_file);
+  return {};
+}
+
+// What of the options does not fit this scene's picture.
+std::string picture_problem(const RenderArguments& arguments, const scene::RenderSettings& settings) {
+  const std::string size = fmt::format("a picture of {}x{}", settings.width, settings.height);
+  if (const auto& crop = arguments.crop)
+    if (crop->x1 > settings.width || crop->y1 > settings.height)
+      return fmt::format("--crop {},{},{},{} reaches outside {}", crop->x0, crop->y0, crop->x1, crop->y1,
+                         size);
+  if (const auto& pixel = arguments.pixel)
+    if (pixel->x >= settings.width || pixel->y >= settings.height)
+      return fmt::format("--pixel {},{} is outside {}", pixel->x, pixel->y, size);
+  return {};
+}
+
+double exposure_of(const scene::Scene& scene) {
+  return std::visit([](const auto& camera) { return camera.exposure; }, scene.camera);
+}
+
+render::RenderOptions options_of(const RenderArguments& arguments) {
+  render::RenderOptions options;
+  options.threads = arguments.threads;
+  options.distance = arguments.distance;
+  options.crop = arguments.crop;
+  if (arguments.sample_range) {
+    options.first_sample = arguments.sample_range->first;
+    options.sample_count = arguments.sample_range->last - arguments.sample_range->first + 1;
+  }
+  return options;
+}
+
+ProgressStyle progress_style(const RenderArguments& arguments) {
+  if (arguments.quiet) return ProgressStyle::none;
+  return error_output_is_terminal() ? ProgressStyle::bar : ProgressStyle::lines;
+}
+
+ExitStatus replay(const RenderArguments& arguments, const compile::CompiledScene& world) {
+  const render::Replay replayed =
+      render::replay(world, options_of(arguments), arguments.pixel->x, arguments.pixel->y, *arguments.sample);
+  const Rgb& radiance = replayed.radiance;
+  if (arguments.json) {
+    print_json({{"radiance", {radiance.x, radiance.y, radiance.z}}, {"trace", replayed.trace}});
+  } else {
+    print_result(replayed.trace);
+    print_result(fmt::format("radiance {} {} {}\n", radiance.x, radiance.y, radiance.z));
+  }
+  return ExitStatus::done;
+}
+
+render::RenderResult render_with_progress(const RenderArguments& arguments,
+                                          const compile::CompiledScene& world) {
+  render::RenderOptions options = options_of(arguments);
+  options.stop = &catch_interrupts();
+  ProgressPrinter progress(progress_style(arguments));
+  return render::render(world, options, progress.callback());
+}
+
+// Writes the picture and the statistics, and says what is to be said of the run.
+ExitStatus finish(const RenderArguments& arguments, LoadedScene& loaded, const scene::Scene& scene,
+                  const std::string& scene_hash, const render::RenderResult& result, StageSeconds& seconds) {
+  Stopwatch watch;
+  const std::string problem =
+      image::write(arguments.output, result.film.image(),
+                   metadata_of(arguments, scene, scene_hash, result.statistics), exposure_of(scene));
+  seconds.write = watch.lap();
+  if (!problem.empty()) return fail(arguments, problem);
+
+  nlohmann::json statistics = statistics_json(scene, scene_hash, seconds, result.statistics, loaded.sources);
+  if (!arguments.statistics_file.empty()) {
+    const std::string text = statistics.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    const std::string failure =
+        image::write_file_whole(arguments.statistics_file, std::as_bytes(std::span(text)));
+    if (!failure.empty()) return fail(arguments, failure);
+  }
+
+  report_bad_values(arguments, result.statistics, loaded.diagnostics);
+  print_diagnostics(loaded.diagnostics, loaded.sources);
+  if (arguments.json) {
+    statistics["diagnostics"] = to_json(loaded.diagnostics, loaded.sources);
+    print_json(statistics);
+  }
+  if (!arguments.quiet) print_message(summary_line(arguments, scene, result.statistics));
+  if (result.statistics.stopped) return ExitStatus::interrupted;
+  return loaded.diagnostics.has_errors() ? ExitStatus::problem : ExitStatus::done;
+}
+
+ExitStatus run_render(const RenderArguments& arguments) {
+  if (arguments.output.empty() && !arguments.pixel)
+    return misuse("render wants the picture to write: -o OUT.exr");
+  if (const std::string problem = output_problem(arguments); !problem.empty())
+    return fail(arguments, problem);
+
+  const std::unique_ptr<LoadedScene> loaded = load(arguments.scene);
+  if (loaded->diagnostics.has_errors()) return end_with(arguments, loaded->diagnostics, loaded->sources);
+  const std::string scene_hash = stable_hash(scene::print(loaded->scene));
+  apply_settings(arguments, loaded->scene.settings);
+  if (const std::string problem = picture_problem(arguments, loaded->scene.settings); !problem.empty())
+    return misuse(problem);
+
+  StageSeconds seconds{loaded->seconds.read, loaded->seconds.parse, loaded->seconds.resolve};
+  Stopwatch watch;
+  const compile::CompiledScene world = compile::compile(std::move(loaded->scene));
+  seconds.compile = watch.lap();
+  if (arguments.pixel) return replay(arguments, world);
+
+  const render::RenderResult result = render_with_progress(arguments, world);
+  seconds.render = watch.lap();
+  return finish(arguments, *loaded, world.scene, scene_hash, result, seconds);
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("render", "Render a scene to a picture");
+  const auto arguments = std::make_shared<RenderArguments>();
+  add_render_options(*command, *arguments);
+  command->callback([arguments, &action] { action = [arguments] { return run_render(*arguments); }; });
+}
+
+}  // namespace tyndall::tools

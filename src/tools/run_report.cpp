@@ -1,0 +1,152 @@
+#include "tools/run_report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/progress.h"
+#include "vm/machine.h"
+
+namespace tyndall::tools {
+namespace {
+
+// Samples of each pixel that the command line and the scene ask for, first and last.
+SampleRange samples_of(const RenderArguments& arguments, const scene::Scene& scene) {
+  return arguments.sample_range.value_or(SampleRange{0, scene.settings.samples - 1});
+}
+
+// Largest resident size of the process so far [bytes].
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+nlohmann::json bad_values_json(const std::vector<render::BadValue>& bad_values, const Sources& sources) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const render::BadValue& bad : bad_values) {
+    nlohmann::json object{{"kind", bad.kind == render::BadValue::Kind::negative ? "negative" : "not finite"},
+                          {"in", bad.shader},
+                          {"count", bad.count}};
+    if (bad.span.valid()) {
+      const Source& source = sources[bad.span.source];
+      object["file"] = source.name();
+      object["line"] = source.locate(bad.span.begin).line;
+    }
+    list.push_back(std::move(object));
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string stable_hash(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return fmt::format("{:016x}", hash);
+}
+
+image::Metadata metadata_of(const RenderArguments& arguments, const scene::Scene& scene,
+                            const std::string& scene_hash, const render::Statistics& statistics) {
+  const SampleRange samples = samples_of(arguments, scene);
+  std::string settings =
+      fmt::format("step={} light_samples={} bounces={} distance={}", scene.settings.step,
+                  scene.settings.light_samples, scene.settings.bounces, name(arguments.distance));
+  if (arguments.crop) {
+    const auto& crop = *arguments.crop;
+    settings += fmt::format(" crop={},{},{},{}", crop.x0, crop.y0, crop.x1, crop.y1);
+  }
+  image::Metadata metadata{
+      {"Software", "Tyndall " TYNDALL_VERSION},
+      {"tyndall:version", TYNDALL_VERSION},
+      {"tyndall:scene_hash", scene_hash},
+      {"tyndall:frame", fmt::format("{}", scene.frame)},
+      {"tyndall:samples", fmt::format("{}..{}", samples.first, samples.last)},
+      {"tyndall:seed", fmt::format("{}", scene.settings.seed)},
+      {"tyndall:settings", settings},
+      {"tyndall:simd", vm::simd_name()},
+  };
+  if (statistics.stopped)
+    metadata.emplace_back("tyndall:interrupted", fmt::format("after {} samples in all", statistics.samples));
+  return metadata;
+}
+
+nlohmann::json statistics_json(const scene::Scene& scene, const std::string& scene_hash,
+                               const StageSeconds& seconds, const render::Statistics& statistics,
+                               const Sources& sources) {
+  const render::Statistics& s = statistics;
+  nlohmann::json result{
+      {"version", TYNDALL_VERSION},
+      {"simd", vm::simd_name()},
+      {"scene_hash", scene_hash},
+      {"frame", scene.frame},
+      {"resolution", {scene.settings.width, scene.settings.height}},
+      {"interrupted", s.stopped},
+      {"seconds",
+       {{"read", seconds.read},
+        {"parse", seconds.parse},
+        {"resolve", seconds.resolve},
+        {"compile", seconds.compile},
+        {"render", seconds.render},
+        {"write", seconds.write}}},
+      {"samples", s.samples},
+      {"samples_per_second", s.seconds > 0 ? static_cast<double>(s.samples) / s.seconds : 0},
+      {"rays", s.rays},
+      {"shadow_rays", s.shadow_rays},
+      {"marches", s.marches},
+      {"segments", s.segments},
+      {"widened_marches", s.widened_marches},
+      {"vm",
+       {{"runs", s.vm_runs},
+        {"instructions", s.vm_instructions},
+        {"lanes_issued", s.lanes_issued},
+        {"lanes_used", s.lanes_used}}},
+      {"bad_samples", s.bad_samples},
+      {"bad_values", bad_values_json(s.bad_values, sources)},
+      {"cut_paths", s.cut_paths},
+      {"cut_throughput", s.cut_throughput},
+      {"peak_memory_bytes", peak_memory()},
+  };
+  if (s.first_bad_sample)
+    result["first_bad_sample"] = {{"pixel", {s.first_bad_sample->x, s.first_bad_sample->y}},
+                                  {"sample", s.first_bad_sample->sample}};
+  return result;
+}
+
+void report_bad_values(const RenderArguments& arguments, const render::Statistics& statistics,
+                       Diagnostics& diagnostics) {
+  const auto report = [&](Span span, std::string message, std::string help) {
+    if (arguments.strict) {
+      diagnostics.error(span, std::move(message), std::move(help));
+    } else {
+      diagnostics.warning(span, std::move(message), std::move(help));
+    }
+  };
+  for (const render::BadValue& bad : statistics.bad_values) {
+    const bool negative = bad.kind == render::BadValue::Kind::negative;
+    report(bad.span,
+           fmt::format("'{}' gave {} {} {} here, taken as 0", bad.shader, bad.count,
+                       negative ? "negative" : "infinite or undefined", bad.count == 1 ? "value" : "values"),
+           negative ? "max(0, …) says that it is meant"
+                    : "look for a division by zero, or a root or logarithm of a negative number");
+  }
+  if (const auto& first = statistics.first_bad_sample)
+    report({},
+           fmt::format("{} {} not finite, and counted as black", statistics.bad_samples,
+                       statistics.bad_samples == 1 ? "sample was" : "samples were"),
+           "the first again: " + replay_command(arguments, first->x, first->y, first->sample));
+}
+
+std::string summary_line(const RenderArguments& arguments, const scene::Scene& scene,
+                         const render::Statistics& statistics) {
+  const SampleRange samples = samples_of(arguments, scene);
+  const double rate =
+      statistics.seconds > 0 ? static_cast<double>(statistics.samples) / statistics.seconds : 0;
+  return fmt::format("{}: {}x{}, {} samples a pixel{} in {}, {}samples/s\n", arguments.output,
+                     scene.settings.width, scene.settings.height, samples.last - samples.first + 1,
+                     statistics.stopped ? " wanted, interrupted" : "", duration_text(statistics.seconds),
+                     count_text(rate));
+}
+
+}  // namespace tyndall::tools

@@ -1,0 +1,71 @@
+// Planck's law seen by the CIE 1931 observer.
+#include "vm/blackbody.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vec.h"
+
+namespace tyndall::vm {
+
+namespace {
+
+// A Gaussian with different widths on its two sides.
+double lobe(double x, double height, double center, double inverse_left, double inverse_right) {
+  const double t = (x - center) * (x < center ? inverse_left : inverse_right);
+  return height * std::exp(-0.5 * t * t);
+}
+
+// Colour matching functions. Wyman, Sloan, Shirley, "Simple Analytic Approximations to the CIE XYZ Color
+// Matching Functions", JCGT 2013, the multi-lobe fits.
+Vec3d observer(double nanometres) {
+  return {
+      lobe(nanometres, 1.056, 599.8, 1 / 37.9, 1 / 31.0) +
+          lobe(nanometres, 0.362, 442.0, 1 / 16.0, 1 / 26.7) +
+          lobe(nanometres, -0.065, 501.1, 1 / 20.4, 1 / 26.2),
+      lobe(nanometres, 0.821, 568.8, 1 / 46.9, 1 / 40.5) + lobe(nanometres, 0.286, 530.9, 1 / 16.3, 1 / 31.1),
+      lobe(nanometres, 1.217, 437.0, 1 / 11.8, 1 / 36.0) +
+          lobe(nanometres, 0.681, 459.0, 1 / 26.0, 1 / 13.8)};
+}
+
+// Colour for 1/T [1/K], components not below zero, luminance 1.
+Vec3d color(double inverse_kelvin) {
+  constexpr double second_radiation_constant = 1.438776877e7;  // h c / k [nm K]
+  Vec3d xyz;
+  for (int nanometres = 360; nanometres <= 830; ++nanometres) {
+    const double l = nanometres, exponent = second_radiation_constant * inverse_kelvin / l;
+    // Planck's law up to a factor that does not depend on the wavelength; l/1000 and the exponent at 600 nm
+    // keep it in range. As T grows it tends to T / l^4.
+    const double reference = second_radiation_constant * inverse_kelvin / 600;
+    const double planck = exponent < 1e-9 ? 1 / (l * l * l * l)
+                                          : reference * std::exp(reference - exponent) /
+                                                -std::expm1(-exponent) / (l * l * l * l * l);
+    xyz += observer(l) * planck;
+  }
+  // Rec. 709 primaries, white D65 (IEC 61966-2-1).
+  const Vec3d rgb = {std::max(0.0, 3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z),
+                     std::max(0.0, -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z),
+                     std::max(0.0, 0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z)};
+  return rgb / dot(rgb, Vec3d(0.2126, 0.7152, 0.0722));
+}
+
+BlackbodyTable make_table() {
+  BlackbodyTable table{};
+  for (std::size_t i = 0; i < blackbody_entries; ++i) {
+    const double steps = static_cast<double>(blackbody_entries - 1);
+    const Vec3f rgb(color(static_cast<double>(i) / steps / static_cast<double>(blackbody_coolest)));
+    table.red[i] = rgb.x;
+    table.green[i] = rgb.y;
+    table.blue[i] = rgb.z;
+  }
+  return table;
+}
+
+}  // namespace
+
+const BlackbodyTable& blackbody_table() {
+  static const BlackbodyTable table = make_table();
+  return table;
+}
+
+}  // namespace tyndall::vm

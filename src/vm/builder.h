@@ -1,0 +1,67 @@
+// Builds a Program from a graph of values. Equal values are made once (value numbering), constant ones are
+// folded by running the kernels, unused ones are dropped, rows are reused once their last reader has run.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "base/id.h"
+#include "vm/op.h"
+#include "vm/program.h"
+
+namespace tyndall::vm {
+
+using NodeId = Id<struct NodeTag>;
+
+class Builder {
+ public:
+  // With folding off every operation is kept, for tests that compare the two. A constant is still a constant.
+  explicit Builder(bool fold = true) : fold_(fold) {}
+
+  NodeId constant(float value);
+  NodeId input(Input input);
+  // The value of `op` on the operands; `span` is kept for listings. Operand count must be the op's.
+  NodeId emit(Op op, std::span<const NodeId> operands, Span span, std::uint8_t count = 0,
+              std::uint32_t immediate = 0);
+  NodeId emit(Op op, std::initializer_list<NodeId> operands, Span span, std::uint8_t count = 0,
+              std::uint32_t immediate = 0) {
+    return emit(op, std::span(operands.begin(), operands.size()), span, count, immediate);
+  }
+
+  bool is_constant(NodeId id) const;
+  float constant_value(NodeId id) const;  // only of constants
+  // True when the node has one value for all lanes (constants, time, and what is made of them).
+  bool is_uniform(NodeId id) const;
+
+  // The program that computes exactly `outputs`, in that order. May be called several times with different
+  // outputs (density only; everything). The result satisfies verify(). Programs over the limits of the
+  // encoding (65,535 operands) are reported by an empty optional.
+  std::optional<Program> finish(std::span<const NodeId> outputs) const;
+
+ private:
+  struct Node {
+    enum class Kind : std::uint8_t { constant, input, operation } kind;
+    Op op{};
+    std::uint8_t count = 0;
+    bool uniform = false;
+    Input input{};
+    float value = 0;
+    std::uint32_t immediate = 0;
+    std::array<NodeId, 4> operands{};
+    Span span;
+  };
+  class Writer;
+  NodeId simplified(const Node& node) const;
+  NodeId add(const Node& node);
+
+  bool fold_;
+  std::vector<Node> nodes_;
+  std::unordered_multimap<std::uint64_t, NodeId> by_hash_;
+};
+
+}  // namespace tyndall::vm

@@ -1,0 +1,52 @@
+// The one table of built-in functions: name, parameters, meaning, documentation, opcode. From a row come
+// overloads, "did you mean", folding, listings, the manual's entry, editor completion and the tests at
+// awkward arguments.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "vm/op.h"
+
+namespace tyndall::vm {
+
+// How a call's arguments become operands.
+enum class Shape : std::uint8_t {
+  componentwise,  // numbers, pairs or vecs, numbers widened: the op per component; result as wide as the
+                  // widest (min max mix clamp abs mod also take angles, all of them or none of the selectable
+                  // ones)
+  angle_to_number,  // sin cos tan: of an angle or a number in radians
+  number_to_angle,  // asin acos atan atan2: an angle
+  length,           // of a pair or vec: length2/length3
+  field,            // a point, optionally a time, then named options `octaves` and `seed`: a number.
+                    // op is the 3-operand form, the next op in the list the one with time
+  vector_field,     // curl: as field, a vec; op is the first of curl3_x..z, curl4 follow
+  custom,  // the evaluator knows it by name (dot cross normalize reflect distance rotate_x … keys random
+           // remap luminance blackbody sd_* smooth_union length-of-list checker …), built of other ops
+};
+
+struct BuiltinParameter {
+  std::string_view name;
+  std::string_view type;           // as the manual writes it: "number", "vec", "number|vec", "angle"
+  std::string_view default_value;  // as written in a scene; empty: required
+};
+
+struct Builtin {
+  std::string_view name;
+  Shape shape;
+  Op op;  // unused for custom
+  std::vector<BuiltinParameter> parameters;
+  std::string_view result;         // as the manual writes it
+  std::string_view documentation;  // one or two sentences, with ranges
+  std::string_view example;        // an expression that must evaluate
+  bool in_bodies = true;           // false: scene code only (translate, look_at, …)
+};
+
+// All rows, sorted by name.
+std::span<const Builtin> builtins();
+// The row of that name or nullptr.
+const Builtin* find_builtin(std::string_view name);
+
+}  // namespace tyndall::vm

@@ -1,0 +1,17 @@
+// The benchmarks of tyndall-bench.
+#pragma once
+
+namespace tyndall {
+
+// Samples per second of the project's first scenes, each rendered for at least `seconds` three times. False
+// when a scene cannot be read.
+bool bench_scenes(double seconds);
+
+}  // namespace tyndall
+
+namespace tyndall::vm {
+
+// The VM against the same shaders in scalar C++ and in hand-written Highway, alternated in one process.
+void bench(double seconds_a_row);
+
+}  // namespace tyndall::vm

@@ -1,0 +1,75 @@
+// The commands beside `render`: check, inspect, compare, and the help.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "image/image.h"
+
+namespace tyndall::test {
+namespace {
+
+using Commands = CliTest;
+
+TEST_F(Commands, CheckLooksAtEveryScene) {
+  const std::string good = file("good.tyn", small_scene()), bad = file("bad.tyn", "let a = b\n");
+  const Outcome one = tyndall({"check", good});
+  EXPECT_EQ(one.status, 0) << one.err;
+  EXPECT_EQ(one.out, good + ": good\n");
+  const Outcome both = tyndall({"check", bad, good});
+  EXPECT_EQ(both.status, 1);
+  EXPECT_EQ(both.out, bad + ": has errors\n" + good + ": good\n");
+  EXPECT_NE(both.err.find(bad + ":1:9: error: "), std::string::npos) << both.err;
+}
+
+TEST_F(Commands, InspectPrintsEveryStage) {
+  const std::string scene = file("a.tyn", small_scene());
+  const std::pair<std::string, std::string> stages[] = {{"tokens", "camera"},
+                                                        {"tree", "perspective"},
+                                                        {"scene", "cloud"},
+                                                        {"bytecode", "fbm"},
+                                                        {"features", "volumes"}};
+  for (const auto& [stage, word] : stages) {
+    const Outcome outcome = tyndall({"inspect", scene, "--stage", stage});
+    EXPECT_EQ(outcome.status, 0) << stage << outcome.err;
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << stage << "\n" << outcome.out;
+  }
+}
+
+TEST_F(Commands, InspectShowsTokensOfWhatCannotBeParsed) {
+  const Outcome outcome = tyndall({"inspect", file("a.tyn", "let = = 3\n"), "--stage", "tokens"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("let"), std::string::npos);
+}
+
+TEST_F(Commands, CompareTellsNumbersAndFails) {
+  const image::Image a{2, 1, {"R", "G", "B"}, {1, 1, 1, 1, 1, 1}},
+      b{2, 1, {"R", "G", "B"}, {1, 1, 1, 1, 1, 2}};
+  const image::Image wide{3, 1, {"R", "G", "B"}, {1, 1, 1, 1, 1, 2, 0, 0, 0}};
+  ASSERT_EQ(image::write(path("a.exr"), a, {}), "");
+  ASSERT_EQ(image::write(path("b.exr"), b, {}), "");
+  ASSERT_EQ(image::write(path("wide.exr"), wide, {}), "");
+  EXPECT_EQ(tyndall({"compare", path("a.exr"), path("a.exr"), "--max", "0"}).status, 0);
+  const Outcome far = tyndall({"compare", path("a.exr"), path("b.exr"), "--max", "0.01", "--json"});
+  EXPECT_EQ(far.status, 3);
+  const auto numbers = nlohmann::json::parse(far.out);
+  EXPECT_EQ(numbers["max_difference"], 1);
+  EXPECT_FALSE(numbers["passed"]);
+  EXPECT_EQ(tyndall({"compare", path("a.exr"), path("b.exr")}).status, 0) << "without a limit nothing fails";
+  EXPECT_EQ(tyndall({"compare", path("a.exr"), path("wide.exr")}).status, 1);
+  EXPECT_EQ(tyndall({"compare", path("a.exr"), path("none.exr")}).status, 1);
+}
+
+TEST_F(Commands, HelpAndVersion) {
+  const Outcome version = tyndall({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out.rfind("tyndall ", 0), 0u) << version.out;
+  for (const std::string command : {"render", "check", "inspect", "compare"}) {
+    const Outcome help = tyndall({command, "--help"});
+    EXPECT_EQ(help.status, 0);
+    EXPECT_NE(help.out.find("--help"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace tyndall::test

@@ -1,0 +1,150 @@
+// What README and docs say is true: every command in them runs, every scene in them is read, every option is
+// there.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "cli/run_program.h"
+
+namespace tyndall::test {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = TYNDALL_SOURCE_DIR;
+
+// A fenced block of a document: ```language … ```.
+struct CodeBlock {
+  std::string language, text;
+};
+
+std::vector<CodeBlock> code_blocks(const fs::path& document) {
+  std::vector<CodeBlock> blocks;
+  std::istringstream lines(read_file(document.string()));
+  std::string line;
+  bool inside = false;
+  while (std::getline(lines, line)) {
+    if (line.starts_with("```")) {
+      if (!inside) blocks.push_back({line.substr(3), {}});
+      inside = !inside;
+    } else if (inside) {
+      blocks.back().text += line + "\n";
+    }
+  }
+  EXPECT_FALSE(inside) << document << ": a block is not closed";
+  return blocks;
+}
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> list{root / "README.md"};
+  for (const auto& entry : fs::directory_iterator(root / "docs"))
+    if (entry.path().extension() == ".md") list.push_back(entry.path());
+  return list;
+}
+
+// The program's arguments of a documented command line; renderings are made tiny.
+std::vector<std::string> arguments_of(const std::string& line) {
+  std::istringstream words(line);
+  std::vector<std::string> arguments;
+  std::string word;
+  words >> word;  // scripts/tyndall
+  while (words >> word) arguments.push_back(word);
+  if (arguments[0] != "render") return arguments;
+  const bool replay = line.find("--pixel") != std::string::npos;  // whose pixel wants the whole picture
+  for (const std::string option : {"--resolution", "--samples"}) {
+    const auto at = std::find(arguments.begin(), arguments.end(), option);
+    if (at != arguments.end()) arguments.erase(at, at + 2);
+    if (option == "--resolution" && replay) continue;
+    arguments.insert(arguments.end(), {option, option == "--samples" ? "1" : "16x9"});
+  }
+  return arguments;
+}
+
+using Documents = CliTest;
+
+TEST_F(Documents, EveryCommandRuns) {
+  fs::create_directory_symlink(root / "scenes", path("scenes"));
+  const fs::path before = fs::current_path();
+  fs::current_path(path(""));
+  std::size_t commands = 0;
+  for (const fs::path& document : documents()) {
+    for (const CodeBlock& block : code_blocks(document)) {
+      std::istringstream lines(block.text);
+      std::string line;
+      if (block.language == "tyn") {  // its first line is `// name.tyn: …`
+        std::getline(lines, line);
+        std::smatch name;
+        ASSERT_TRUE(std::regex_search(line, name, std::regex(R"(^// (\w+\.tyn): )")))
+            << document << ": " << line;
+        file(name[1], block.text);
+      }
+      if (block.language != "sh") continue;
+      while (std::getline(lines, line)) {
+        if (line.starts_with("scripts/test")) continue;  // that is us
+        ASSERT_TRUE(line.starts_with("scripts/tyndall ")) << document << ": " << line;
+        const Outcome outcome = tyndall(arguments_of(line));
+        EXPECT_EQ(outcome.status, 0) << document << ": " << line << "\n" << outcome.err;
+        ++commands;
+      }
+    }
+  }
+  fs::current_path(before);
+  EXPECT_GE(commands, 8u);
+}
+
+TEST_F(Documents, EveryLinkLeadsSomewhere) {
+  const std::regex link(R"(\]\(([^)#:]+)\))");
+  for (const fs::path& document : documents()) {
+    const std::string text = read_file(document.string());
+    for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it)
+      EXPECT_TRUE(fs::exists(document.parent_path() / (*it)[1].str())) << document << ": " << (*it)[1];
+  }
+}
+
+// The rows of the table of options under a command's heading of docs/cli.md.
+std::string table_of(const std::string& text, const std::string& heading) {
+  const std::size_t begin = text.find("\n## " + heading + "\n");
+  if (begin == std::string::npos) return {};
+  std::istringstream lines(text.substr(begin, text.find("\n## ", begin + 1) - begin));
+  std::string line, rows;
+  while (std::getline(lines, line))
+    if (line.starts_with("| `")) rows += line + "\n";
+  return rows;
+}
+
+std::set<std::string> options_in(const std::string& text) {
+  const std::regex option(R"(--[a-z][a-z-]*)");
+  std::set<std::string> options;
+  for (std::sregex_iterator it(text.begin(), text.end(), option), end; it != end; ++it)
+    options.insert(it->str());
+  options.erase("--help");
+  return options;
+}
+
+TEST_F(Documents, CliPageHasExactlyTheOptionsOfTheProgram) {
+  const std::string page = read_file((root / "docs/cli.md").string());
+  for (const std::string command : {"render", "check", "format", "inspect", "compare"}) {
+    const std::string help = tyndall({command, "--help"}).out;
+    EXPECT_FALSE(options_in(help).empty());
+    EXPECT_EQ(options_in(help), options_in(table_of(page, command))) << command;
+  }
+}
+
+TEST_F(Documents, EverySceneIsGoodAndSaysItsPurpose) {
+  std::size_t scenes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "scenes")) {
+    if (entry.path().extension() != ".tyn") continue;
+    ++scenes;
+    EXPECT_TRUE(read_file(entry.path().string()).starts_with("// ")) << entry.path();
+    const Outcome outcome = tyndall({"render", entry.path().string(), "-o", path("a.png"), "--resolution",
+                                     "24x16", "--samples", "1", "--strict"});
+    EXPECT_EQ(outcome.status, 0) << entry.path() << "\n" << outcome.err;
+    EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
+  }
+  EXPECT_GE(scenes, 3u);
+}
+
+}  // namespace
+}  // namespace tyndall::test

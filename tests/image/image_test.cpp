@@ -1,0 +1,164 @@
+// Pictures: what is written is read back; files appear whole or not at all.
+#include "image/image.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace tyndall::image {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A directory of the test's own, removed at its end.
+class ImageFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    directory_ = fs::temp_directory_path() /
+                 ("tyndall-image-" + std::string(info->name()) + std::to_string(::getpid()));
+    fs::create_directories(directory_);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::size_t file_count() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
+  }
+
+ private:
+  fs::path directory_;
+};
+
+Image ramp(int width, int height) {
+  Image image{width, height, {"R", "G", "B"}, {}};
+  for (int i = 0; i < width * height * 3; ++i) image.pixels.push_back(static_cast<float>(i) * 0.37f - 5);
+  return image;
+}
+
+std::string text_of(const Metadata& metadata, const std::string& name) {
+  for (const auto& [key, value] : metadata)
+    if (key == name) return value;
+  return {};
+}
+
+TEST_F(ImageFiles, ExrKeepsEveryFloatAndTheMetadata) {
+  Image image = ramp(7, 5);
+  image.pixels[4] = std::numeric_limits<float>::quiet_NaN();
+  image.pixels[5] = std::numeric_limits<float>::infinity();
+  ASSERT_EQ(write(path("a.exr"), image, {{"tyndall:seed", "17"}, {"Software", "Tyndall"}}), "");
+  const ReadResult back = read(path("a.exr"));
+  ASSERT_TRUE(back.image) << back.error;
+  EXPECT_EQ(back.image->width, 7);
+  EXPECT_EQ(back.image->height, 5);
+  EXPECT_EQ(back.image->channels, image.channels);
+  ASSERT_EQ(back.image->pixels.size(), image.pixels.size());
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    if (i == 4) {
+      EXPECT_TRUE(std::isnan(back.image->pixels[i]));
+    } else {
+      EXPECT_EQ(back.image->pixels[i], image.pixels[i]) << i;
+    }
+  }
+  EXPECT_EQ(text_of(back.metadata, "tyndall:seed"), "17");
+  EXPECT_EQ(text_of(back.metadata, "Software"), "Tyndall");
+}
+
+TEST_F(ImageFiles, PngIsExposedClampedSrgb) {
+  const Image image{6,
+                    1,
+                    {"R", "G", "B"},
+                    {0, 0, 0, 0.25f, 0.25f, 0.25f, 0.5f, 0.5f, 0.5f, 9, 9, 9, -1, -1, -1,
+                     std::numeric_limits<float>::quiet_NaN(), 0.0015625f, 0.1f}};
+  ASSERT_EQ(write(path("a.png"), image, {{"tyndall:seed", "17"}}, 1.0), "");
+  const ReadResult back = read(path("a.png"));
+  ASSERT_TRUE(back.image) << back.error;
+  EXPECT_EQ(back.image->at(0, 0, 0), 0);
+  // 0.5 linear is 187.5 of 255 in sRGB: one 8-bit step there is 0.0071 of linear light.
+  EXPECT_NEAR(back.image->at(1, 0, 0), 0.5f, 0.0036f);
+  EXPECT_EQ(back.image->at(2, 0, 1), 1);
+  EXPECT_EQ(back.image->at(3, 0, 2), 1);
+  EXPECT_EQ(back.image->at(4, 0, 0), 0);
+  EXPECT_EQ(back.image->at(5, 0, 0), 0);
+  EXPECT_NEAR(back.image->at(5, 0, 1), 0.003125f, 0.5f / 255 / 12.92f);
+  EXPECT_NE(text_of(back.metadata, "ImageDescription").find("tyndall:seed: 17"), std::string::npos);
+}
+
+TEST_F(ImageFiles, TheSamePictureIsTheSameBytes) {
+  const auto bytes = [&](const std::string& name) {
+    EXPECT_EQ(write(path(name), ramp(33, 20), {{"tyndall:seed", "1"}}), "");
+    std::ifstream file(path(name), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(bytes("a.exr"), bytes("b.exr"));
+  EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+  // Also at another time of day.
+  EXPECT_EQ(text_of(read(path("a.exr")).metadata, "DateTime"), "");
+  EXPECT_EQ(text_of(read(path("a.png")).metadata, "DateTime"), "");
+}
+
+TEST_F(ImageFiles, OverwritesAndLeavesNothingBeside) {
+  ASSERT_EQ(write(path("a.exr"), ramp(2, 2), {}), "");
+  ASSERT_EQ(write(path("a.exr"), ramp(3, 2), {}), "");
+  EXPECT_EQ(read(path("a.exr")).image->width, 3);
+  EXPECT_EQ(file_count(), 1u);
+}
+
+TEST_F(ImageFiles, BadPathsAreToldBeforeAndAtWriting) {
+  fs::create_directory(path("folder.exr"));
+  const struct {
+    std::string path, wanted;
+  } cases[] = {
+      {path("a.jpg"), "unknown extension '.jpg'"},      {path("a"), "no extension"},
+      {path("no/such/a.exr"), "there is no directory"}, {path("folder.exr"), "it is a directory"},
+      {"/proc/a.exr", "cannot write '/proc/a.exr'"},  // a directory in which not even root can make files
+  };
+  for (const auto& c : cases) {
+    EXPECT_NE(check_writable(c.path).find(c.wanted), std::string::npos)
+        << c.path << ": " << check_writable(c.path);
+    EXPECT_NE(write(c.path, ramp(2, 2), {}).find(c.wanted), std::string::npos) << c.path;
+  }
+  EXPECT_EQ(check_writable(path("A.PNG")), "");
+  EXPECT_EQ(file_count(), 1u) << "checking leaves nothing behind";
+}
+
+// A file-size limit stands for the full disk: the system refuses the bytes half-way.
+TEST_F(ImageFiles, AFullDiskLeavesTheOldPicture) {
+  ASSERT_EQ(write(path("a.exr"), ramp(2, 2), {}), "");
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit tiny{4096, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &tiny);
+  const std::string message = write(path("a.exr"), ramp(200, 200), {});
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_DFL);
+  EXPECT_NE(message.find("cannot write"), std::string::npos) << message;
+  EXPECT_EQ(file_count(), 1u);
+  EXPECT_EQ(read(path("a.exr")).image->width, 2);
+}
+
+TEST_F(ImageFiles, UnreadableFilesAreErrors) {
+  std::ofstream(path("rubbish.exr")) << "this is no picture";
+  std::ofstream(path("empty.png")).flush();
+  for (const std::string name : {"rubbish.exr", "empty.png", "missing.exr", "a.txt"}) {
+    const ReadResult result = read(path(name));
+    EXPECT_FALSE(result.image) << name;
+    EXPECT_NE(result.error.find(name), std::string::npos) << result.error;
+  }
+}
+
+TEST_F(ImageFiles, ATruncatedPictureIsAnError) {
+  ASSERT_EQ(write(path("a.exr"), ramp(64, 64), {}), "");
+  fs::resize_file(path("a.exr"), fs::file_size(path("a.exr")) / 2);
+  EXPECT_FALSE(read(path("a.exr")).image);
+}
+
+}  // namespace
+}  // namespace tyndall::image

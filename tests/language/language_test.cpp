@@ -1,0 +1,119 @@
+// Runs every scene of this folder against the errors and warnings that comments on its lines expect:
+//
+//   sphere { raduis: 1 }   // error: no parameter 'raduis' … did you mean 'radius'
+//
+// Each reported problem must be expected on its line and each expected one reported. `…` stands for any text.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "resolve/resolve.h"
+#include "syntax/parser.h"
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Expectation {
+  std::string file;
+  std::uint32_t line;
+  Severity severity;
+  std::string fragments;
+  bool met = false;
+};
+
+// The expectations in a line's comments.
+void read_expectations(const Source& source, std::uint32_t line, std::vector<Expectation>& expectations) {
+  std::string_view rest = source.line(line);
+  while (true) {
+    const std::size_t error = rest.find("// error: "), warning = rest.find("// warning: ");
+    const std::size_t at = std::min(error, warning);
+    if (at == std::string_view::npos) return;
+    rest = rest.substr(rest.find(": ", at) + 2);
+    std::string_view fragments = rest.substr(0, rest.find(" // "));
+    while (fragments.ends_with(' ')) fragments.remove_suffix(1);
+    expectations.push_back(
+        {source.name(), line, error < warning ? Severity::error : Severity::warning, std::string(fragments)});
+  }
+}
+
+// Whether the fragments stand in the text in this order.
+bool matches(std::string_view text, std::string_view fragments) {
+  constexpr std::string_view any = "…";
+  while (true) {
+    const std::size_t end = fragments.find(any);
+    std::string_view fragment = fragments.substr(0, end);
+    while (fragment.starts_with(' ')) fragment.remove_prefix(1);
+    while (fragment.ends_with(' ')) fragment.remove_suffix(1);
+    const std::size_t at = text.find(fragment);
+    if (at == std::string_view::npos) return false;
+    if (end == std::string_view::npos) return true;
+    text = text.substr(at + fragment.size());
+    fragments = fragments.substr(end + any.size());
+  }
+}
+
+std::string text_of(const Diagnostic& d) {
+  std::string text = d.message + " | " + d.help;
+  for (const Diagnostic::Note& note : d.notes) text += " | " + note.message;
+  return text;
+}
+
+class Language : public testing::TestWithParam<std::string> {};
+
+TEST_P(Language, ReportsWhatTheCommentsSay) {
+  std::ifstream file(GetParam(), std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  Sources sources;
+  Diagnostics diagnostics;
+  syntax::Symbols symbols;
+  const SourceId source = sources.add(GetParam(), text.str());
+  const syntax::TokenList tokens = syntax::lex(sources, source, diagnostics);
+  const syntax::SyntaxTree tree = syntax::parse(sources, source, tokens, symbols, diagnostics);
+  resolve::resolve(tree, sources, symbols, {}, diagnostics);
+
+  std::vector<Expectation> expectations;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const Source& s = sources[SourceId(i)];
+    const std::uint32_t lines = s.locate(static_cast<std::uint32_t>(s.text().size())).line;
+    for (std::uint32_t line = 1; line <= lines; ++line) read_expectations(s, line, expectations);
+  }
+  for (const Diagnostic& d : diagnostics.all()) {
+    ASSERT_TRUE(d.span.valid()) << d.message;
+    const Source& s = sources[d.span.source];
+    const std::uint32_t line = s.locate(d.span.begin).line;
+    bool expected = false;
+    for (Expectation& e : expectations) {
+      if (expected || e.met || e.file != s.name() || e.line != line || e.severity != d.severity) continue;
+      expected = e.met = matches(text_of(d), e.fragments);
+    }
+    EXPECT_TRUE(expected) << "not expected:\n" << render_text(d, sources, false);
+  }
+  for (const Expectation& e : expectations)
+    EXPECT_TRUE(e.met) << fmt::format("{}:{}: expected, not reported: {}", e.file, e.line, e.fragments);
+  EXPECT_EQ(
+      diagnostics.error_count(),
+      static_cast<int>(std::count_if(expectations.begin(), expectations.end(),
+                                     [](const Expectation& e) { return e.severity == Severity::error; })));
+}
+
+std::vector<std::string> scenes() {
+  std::vector<std::string> paths;
+  for (const auto& entry : fs::directory_iterator(TYNDALL_SOURCE_DIR "/tests/language"))
+    if (entry.path().extension() == ".tyn") paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Language, testing::ValuesIn(scenes()),
+                         [](const auto& scene) { return fs::path(scene.param).stem().string(); });
+
+}  // namespace
+}  // namespace tyndall

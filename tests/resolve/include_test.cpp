@@ -1,0 +1,103 @@
+// Included files: where they are looked for, what they bring, and what goes wrong.
+#include <filesystem>
+#include <fstream>
+
+#include "resolved.h"
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of files that is gone at the end of the test.
+class Folder {
+ public:
+  explicit Folder(const std::string& name)
+      : path_(fs::path(testing::TempDir()) / ("tyndall_include_" + name)) {
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name, std::ios::binary) << text;
+  }
+  std::string path(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+TEST(Include, LooksBesideTheIncludingFileThenInTheDirectories) {
+  const Folder folder("order");
+  folder.write("sub/a.tyn", "include \"b.tyn\"");
+  folder.write("sub/b.tyn", "sphere { radius: 1 }");
+  folder.write("library/b.tyn", "sphere { radius: 2 }");
+  folder.write("library/c.tyn", "sphere { radius: 3 }");
+  resolve::Options options;
+  options.include_directories = {folder.path("library")};
+  const Resolved r = resolve_text(camera_and_light + "include \"sub/a.tyn\"  include \"c.tyn\"", options,
+                                  folder.path("main.tyn"));
+  ASSERT_TRUE(r.diagnostics.all().empty()) << r.messages();
+  ASSERT_EQ(r.scene.shapes.size(), 2u);
+  EXPECT_EQ(std::get<scene::Sphere>(r.scene.shapes[0].shape).radius, 1);
+  EXPECT_EQ(std::get<scene::Sphere>(r.scene.shapes[1].shape).radius, 3);
+}
+
+TEST(Include, ComesOnceInAScopeHoweverItIsSpelt) {
+  const Folder folder("once");
+  folder.write("a.tyn", "let size = 2  sphere { radius: size }");
+  folder.write("x/unused.tyn", "");
+  const Resolved r = resolve_text(
+      camera_and_light + "include \"a.tyn\"  include \"./x/../a.tyn\"  group { include \"a.tyn\" }", {},
+      folder.path("main.tyn"));
+  ASSERT_TRUE(r.diagnostics.all().empty()) << r.messages();
+  EXPECT_EQ(r.scene.shapes.size(), 2u);
+}
+
+TEST(Include, StandsWhereItIsWritten) {
+  const Folder folder("place");
+  folder.write("a7.tyn", "sphere { radius: size }  def ball() { sphere { radius: 5 * size } }");
+  const Resolved r = resolve_text(
+      camera_and_light +
+          "let size = 3  group { transform: translate((1, 0, 0))  include \"a{4 + size}.tyn\"  ball() }",
+      {}, folder.path("main.tyn"));
+  ASSERT_TRUE(r.diagnostics.all().empty()) << r.messages();
+  EXPECT_EQ(r.scene.shapes.at(0).world_from_object, Transform::translate({1, 0, 0}));
+  EXPECT_EQ(std::get<scene::Sphere>(r.scene.shapes.at(1).shape).radius, 15);
+}
+
+TEST(Include, OfTheMainFileIsACircle) {
+  const Folder folder("circle");
+  folder.write("a.tyn", "include \"main.tyn\"");
+  folder.write("main.tyn", camera_and_light + "include \"a.tyn\"");
+  const Resolved r = resolve_text(camera_and_light + "include \"a.tyn\"", {}, folder.path("main.tyn"));
+  EXPECT_EQ(r.diagnostics.error_count(), 1) << r.messages();
+  EXPECT_NE(r.messages().find("includes itself"), std::string::npos) << r.messages();
+}
+
+TEST(Include, MessagesTellTheWay) {
+  const Folder folder("way");
+  folder.write("a.tyn", "include \"b.tyn\"");
+  folder.write("b.tyn", "\nsphere { raduis: 1 }");
+  const Resolved r = resolve_text(camera_and_light + "include \"a.tyn\"", {}, folder.path("main.tyn"));
+  ASSERT_EQ(r.diagnostics.all().size(), 1u) << r.messages();
+  EXPECT_EQ(r.diagnostics.all()[0].notes.size(), 2u);
+  EXPECT_NE(r.messages().find("b.tyn:2:10: error"), std::string::npos) << r.messages();
+}
+
+TEST(Include, TooDeepIsAnError) {
+  const Folder folder("deep");
+  for (int i = 0; i < 70; ++i)
+    folder.write("f" + std::to_string(i) + ".tyn", "include \"f" + std::to_string(i + 1) + ".tyn\"");
+  folder.write("f70.tyn", "");
+  const Resolved r = resolve_text(camera_and_light + "include \"f0.tyn\"", {}, folder.path("main.tyn"));
+  ASSERT_EQ(r.diagnostics.error_count(), 1) << r.messages();
+  EXPECT_NE(r.messages().find("more than 64 deep"), std::string::npos) << r.messages();
+}
+
+}  // namespace
+}  // namespace tyndall

@@ -1,0 +1,161 @@
+// Whatever the text, reading it ends, with a tree that can be printed; and depth is bounded, not crashed
+// upon.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "reading.h"
+
+namespace tyndall::syntax {
+namespace {
+
+std::string repeat(std::string_view text, int times) {
+  std::string out;
+  for (int i = 0; i < times; ++i) out += text;
+  return out;
+}
+
+// Nothing is demanded of these but an end: the sanitizers and the parser's own checks do the rest.
+void read(const std::string& text) {
+  const Reading r(text);
+  EXPECT_FALSE(r.printed().empty());
+  r.errors();
+}
+
+TEST(Robustness, DeepNestingIsOneError) {
+  const std::string deep[] = {
+      "let a = " + repeat("(", 10000) + "1" + repeat(")", 10000),
+      "let a = " + repeat("[", 10000),
+      "let a = " + repeat("f(", 10000),
+      "let a = " + repeat("-", 10000) + "1",
+      "let a = " + repeat("not ", 10000) + "b",
+      "let a = " + repeat("2^", 10000) + "1",
+      "let a = " + repeat("1+", 10000) + "1",
+      "let a = b" + repeat(".x", 10000),
+      "let a = b" + repeat("(1)", 10000),
+      "let a = b" + repeat("[1]", 10000),
+      "let a = " + repeat("if b then c else ", 10000) + "d",
+      "let a = " + repeat("if ", 10000),
+      "let a = " + repeat("s { t: ", 10000),
+      repeat("group { ", 10000),
+      repeat("if a { ", 10000),
+      repeat("if a { } else ", 10000) + "{ }",
+      repeat("def f() { ", 10000),
+      "medium m() { d = " + repeat("(a * ", 10000) + "1" + repeat(")", 10000) + " }",
+  };
+  for (const std::string& text : deep) {
+    const Reading r(text);
+    ASSERT_EQ(r.diagnostics.error_count(), 1) << text.substr(0, 30) << "\n" << r.errors();
+    EXPECT_EQ(r.diagnostics.all()[0].message, "nested too deeply: at most 256 levels are read")
+        << text.substr(0, 30);
+    r.printed();
+  }
+}
+
+TEST(Robustness, ModerateNestingIsRead) {
+  EXPECT_EQ(Reading("let a = " + repeat("(", 250) + "1" + repeat(")", 250)).errors(), "");
+  EXPECT_EQ(Reading("let a = " + repeat("1+", 250) + "1").errors(), "");
+  EXPECT_EQ(Reading(repeat("group { ", 250) + repeat("}", 250)).errors(), "");
+  EXPECT_EQ(Reading("let a = " + repeat("(1+", 120) + "1" + repeat(")", 120)).errors(), "");
+}
+
+TEST(Robustness, DeepStringsAreTwoErrorsAtMost) {
+  const Reading r("let a = " + repeat("\"{", 10000));
+  EXPECT_LE(r.diagnostics.error_count(), 2);
+  r.printed();
+}
+
+TEST(Robustness, FiveMegabytesOnOneLine) {
+  std::string text;
+  while (text.size() < 5'000'000) text += "let a = (1, 2.5, fbm(p * 3)) sphere { radius: 3cm center: a } ";
+  const auto begin = std::chrono::steady_clock::now();
+  const Reading r(text);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  EXPECT_EQ(r.errors(), "");
+  EXPECT_LT(seconds, 20);  // about half a second; what grows with the square of the length takes minutes
+  EXPECT_GT(r.tree.items.size(), 100000u);
+}
+
+TEST(Robustness, AMegabyteOfMistakes) {
+  for (const char* piece :
+       {"( ", "} ", "a ", "\"", "let ", "1 2 ", "# ", "\"{", "/* ", "{ ", ": = ", "\xff ", "a ( "}) {
+    std::string text;
+    while (text.size() < 1'000'000) text += piece;
+    const Reading r(text);
+    EXPECT_TRUE(r.diagnostics.has_errors());
+    r.errors();
+  }
+}
+
+constexpr std::string_view soup[] = {
+    "let",  "var", "def", "return", "medium", "material", "object", "place", "include", "if",     "then",
+    "else", "for", "in",  "and",    "or",     "not",      "true",   "false", "(",       ")",      "[",
+    "]",    "{",   "}",   ",",      ":",      ".",        "=",      "+",     "-",       "*",      "/",
+    "^",    "<",   "<=",  ">",      "==",     "!=",       "..",     "..<",   "a",       "sphere", "b",
+    "1",    "2.5", "3cm", "#fff",   "\"s\"",  "\"a{",     "}b\"",   "\n",    "\"{",     ";",      "&&",
+    "!",    "=>",  "//",  "/*",     "*/",     "f(",       "x: ",    "y = ",  "@",       "\xff",
+};
+
+TEST(Robustness, RandomTokens) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 4000; ++round) {
+    std::string text;
+    const std::size_t length = random() % 120;
+    for (std::size_t i = 0; i < length; ++i) {
+      text += soup[random() % std::size(soup)];
+      text += ' ';
+    }
+    SCOPED_TRACE(text);
+    read(text);
+  }
+}
+
+std::string file_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  EXPECT_TRUE(file) << path;
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(Robustness, MutatedScenes) {
+  std::mt19937 random(2);
+  for (const char* name : {"definitions", "statements", "grid", "scene", "values", "mistakes"}) {
+    const std::string scene =
+        file_text(std::string(TYNDALL_SOURCE_DIR "/tests/fuzz/corpus/parse/") + name + ".tyn");
+    for (int round = 0; round < 500; ++round) {
+      std::string text = scene;
+      for (std::size_t edits = 1 + random() % 4; edits > 0; --edits) {
+        const std::size_t at = random() % (text.size() + 1);
+        const std::size_t length = random() % 20;
+        switch (random() % 4) {
+          case 0:
+            text.erase(at, length);
+            break;
+          case 1:
+            text.insert(at, soup[random() % std::size(soup)]);
+            break;
+          case 2:
+            text.insert(at, text.substr(random() % (text.size() + 1), length));
+            break;
+          case 3:
+            text.insert(at, 1, static_cast<char>(random()));
+            break;
+        }
+      }
+      SCOPED_TRACE(text);
+      read(text);
+    }
+  }
+}
+
+TEST(Robustness, EveryBeginningOfAScene) {
+  const std::string scene = file_text(TYNDALL_SOURCE_DIR "/tests/fuzz/corpus/parse/scene.tyn");
+  for (std::size_t length = 0; length <= scene.size(); ++length) read(scene.substr(0, length));
+}
+
+}  // namespace
+}  // namespace tyndall::syntax
