@@ -77,6 +77,7 @@ std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tr
     } else if (parameter.default_value.valid()) {
       frames_.push_back({nullptr, call});  // a default sees what the function sees
       binding.value = evaluate(definition_tree, parameter.default_value, scope);
+      hold(*scope, binding.value);
       frames_.pop_back();
     } else {
       error(call, fmt::format("'{}' wants '{}'", callee, text(parameter.name.symbol)),

@@ -141,6 +141,12 @@ static bool holds_scope(const Value& value) {
          value.get<ObjectDefinition>();
 }
 
+void Evaluator::hold(const Scope& scope, const Value& value) {
+  if (!holds_scope(value)) return;
+  auto& kept = context_.names->scopes_with_definitions;
+  if (kept.empty() || kept.back().get() != &scope) kept.push_back(scope.shared_from_this());
+}
+
 void Evaluator::bind(const std::shared_ptr<Scope>& scope, Binding binding) {
   const Special special = names().special(binding.symbol);
   if (special == Special::time || special == Special::frame || sees(special)) {
@@ -153,8 +159,7 @@ void Evaluator::bind(const std::shared_ptr<Scope>& scope, Binding binding) {
           "choose another name", {{earlier->definition, "the first is here"}});
     return;
   }
-  auto& kept = context_.names->scopes_with_definitions;
-  if (holds_scope(binding.value) && (kept.empty() || kept.back() != scope)) kept.push_back(scope);
+  hold(*scope, binding.value);
   scope->bindings.push_back(std::move(binding));
 }
 

@@ -51,7 +51,8 @@ Names::Names(syntax::Symbols& symbols) {
 }
 
 Names::~Names() {
-  for (const auto& scope : scopes_with_definitions) scope->bindings.clear();
+  for (const auto& scope : scopes_with_definitions)
+    for (const Binding& binding : scope->bindings) binding.value = {};
 }
 
 }  // namespace tyndall::eval

@@ -48,7 +48,7 @@ struct Names {
   syntax::SymbolId ease;
 
   // Scopes that hold definitions are held by them in turn; the run's end lets go of them.
-  std::vector<std::shared_ptr<Scope>> scopes_with_definitions;
+  std::vector<std::shared_ptr<const Scope>> scopes_with_definitions;
 
   // Names that a body's block takes from outside of it, by the block's span.
   struct SpanHash {

@@ -21,8 +21,9 @@ struct Binding {
 };
 
 // One scope. Definitions in the same scope must differ in name; an inner scope may hide an outer one's.
-// Add bindings with Evaluator::bind, which reports doubled names.
-struct Scope {
+// Add bindings with Evaluator::bind, which reports doubled names;
+// a value that comes into a scope in another way goes through Evaluator::hold.
+struct Scope : std::enable_shared_from_this<Scope> {
   std::shared_ptr<const Scope> parent;
   std::vector<Binding> bindings;  // small: searched from the back
   // The scope of a function's parameters: assignments inside do not reach the variables outside.

@@ -87,6 +87,7 @@ class Steps {
   }
 
   struct Found {
+    const Scope* scope = nullptr;
     const Binding* binding = nullptr;
     bool outside_of_branch = false;
   };
@@ -95,7 +96,7 @@ class Steps {
     bool passed = false;
     for (; scope; scope = scope->parent.get()) {
       passed |= !branches_.empty() && branches_.back()->outside == scope;
-      if (const Binding* binding = scope->find_here(symbol)) return {binding, passed};
+      if (const Binding* binding = scope->find_here(symbol)) return {scope, binding, passed};
       if (scope->assignments_end_here) break;
     }
     return {};
@@ -105,7 +106,7 @@ class Steps {
     const Value value = ev_.evaluate(tree_, assign.value, scope);
     const Found found = find(assign.name.symbol, scope.get());
     if (found.binding && found.binding->kind == BindingKind::variable) {
-      set(*found.binding, found.outside_of_branch, value, assign.name.span);
+      set(found, value, assign.name.span);
     } else if (assign_output_) {
       set_output(item, assign, value);
     } else if (found.binding || scope->find(assign.name.symbol)) {
@@ -120,7 +121,8 @@ class Steps {
     }
   }
 
-  void set(const Binding& binding, bool outside_of_branch, const Value& value, Span span) {
+  void set(const Found& found, const Value& value, Span span) {
+    const Binding& binding = *found.binding;
     if (!value.is_error() && !binding.value.is_error() && value.type != binding.value.type &&
         !(is_numeric(value.type) && is_numeric(binding.value.type))) {
       ev_.error(span,
@@ -129,12 +131,13 @@ class Steps {
                 "a variable keeps its kind", {{binding.definition, "it is defined here"}});
       return;
     }
-    if (outside_of_branch) {
+    if (found.outside_of_branch) {
       auto& changed = branches_.back()->variables;
       const bool known =
           std::any_of(changed.begin(), changed.end(), [&](const auto& c) { return c.binding == &binding; });
       if (!known) changed.push_back({&binding, binding.value, {}});
     }
+    ev_.hold(*found.scope, value);
     binding.value = value;
   }
 
@@ -184,7 +187,7 @@ class Steps {
       if (const auto* assign = std::get_if<AssignItem>(&item.node)) {
         const Found found = find(assign->name.symbol, scope.get());
         if (found.binding && found.binding->kind == BindingKind::variable)
-          set(*found.binding, found.outside_of_branch, {}, assign->name.span);
+          set(found, {}, assign->name.span);
         else if (assign_output_)
           set_output(item, *assign, {});
       } else if (const auto* choice = std::get_if<IfItem>(&item.node)) {
