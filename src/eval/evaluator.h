@@ -66,7 +66,8 @@ class Evaluator {
 
   // Adds a binding; reports a name that the scope has already or that may not be redefined here.
   void bind(const std::shared_ptr<Scope>& scope, Binding binding);
-  // Notes that `value` comes to stand in `scope`: if it holds scopes in its turn, the run's end must let go of it.
+  // Notes that `value` comes to stand in `scope`: if it holds scopes in its turn, the run's end must let go
+  // of it.
   void hold(const Scope& scope, const Value& value);
 
   // Binds the call's arguments to the definition's parameters (positional, named, defaults evaluated in

@@ -265,7 +265,7 @@ class Steps {
     if (then_value && else_value) return select(ev_, c, *then_value, *else_value, span);
     if (then_value) partial_returns_.push_back({c, *then_value, span});
     if (else_value) partial_returns_.push_back({not_c, *else_value, span});
-    merge(c, then_changes, else_changes, then_value.has_value(), else_value.has_value(), span);
+    merge(c, then_changes, else_changes, then_value.has_value(), else_value.has_value(), *scope, span);
     return std::nullopt;
   }
 
@@ -287,7 +287,7 @@ class Steps {
 
   // Sets what the branches changed; a branch that returned leaves the other's values.
   void merge(const Scalar& condition, const Changes& a, const Changes& b, bool a_returned, bool b_returned,
-             Span span) {
+             const Scope& scope, Span span) {
     const auto after = [](const Changes& changes, const Binding* binding) {
       for (const Changes::Variable& v : changes.variables)
         if (v.binding == binding) return v.after;
@@ -303,21 +303,13 @@ class Steps {
       const Value merged = a_returned   ? from_b
                            : b_returned ? from_a
                                         : select(ev_, condition, from_a, from_b, span);
-      set(*binding, is_outside(binding), merged, span);
+      set(find(binding->symbol, &scope), merged, span);
     }
     for (const Changes::Output& output : a.outputs)
       for (const Changes::Output& other : b.outputs)
         if (other.assign->name.symbol == output.assign->name.symbol)
           set_output(*output.item, *output.assign,
                      select(ev_, condition, output.value, other.value, output.item->span));
-  }
-
-  // True when the binding lives outside of the branch that is running (if one is).
-  bool is_outside(const Binding* binding) const {
-    if (branches_.empty()) return false;
-    for (const Scope* scope = branches_.back()->outside; scope; scope = scope->parent.get())
-      if (scope->find_here(binding->symbol) == binding) return true;
-    return false;
   }
 
   Evaluator& ev_;

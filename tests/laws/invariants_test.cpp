@@ -59,20 +59,22 @@ TEST(Scaling, GivesTheSamePicture) {
       }
 }
 
+// Lights that do not shine stay where they are: a black sphere still stands in the others' light.
 TEST(Lights, Add) {
-  const auto lit = [](bool a, bool b, bool c) {
+  const auto lit = [](float a, float b, float c) {
     SceneBuilder builder = room(1);
-    builder.image(16, 16, 64);
-    if (a) builder.sphere_light({2, 3, 1}, 0.3, Rgb(100, 50, 20));
-    if (b) builder.quad_light({-3, 3, 0}, {0.5, 0, 0}, {0, 0, 0.5}, Rgb(60));
-    if (c) builder.environment(0.3f).distant_light({1, -2, -1}, Rgb(0.5f, 1, 2), 2);
+    builder.image(16, 16, 64)
+        .sphere_light({2, 3, 1}, 0.3, Rgb(100, 50, 20) * a)
+        .quad_light({-3, 3, 0}, {0.5, 0, 0}, {0, 0, 0.5}, Rgb(60) * b)
+        .environment(0.3f * c)
+        .distant_light({1, -2, -1}, Rgb(0.5f, 1, 2) * c, 2);
     return measure(builder.scene).whole();
   };
-  const Estimate a = lit(true, false, false), b = lit(false, true, false), c = lit(false, false, true);
+  const Estimate a = lit(1, 0, 0), b = lit(0, 1, 0), c = lit(0, 0, 1);
   Estimate sum{a.mean + b.mean + c.mean, {}};
   for (std::size_t i = 0; i < 3; ++i)
     sum.standard_error[i] = std::hypot(a.standard_error[i], b.standard_error[i], c.standard_error[i]);
-  expect_same(lit(true, true, true), sum, 0, 0.01, "three lights");
+  expect_same(lit(1, 1, 1), sum, 0, 0.01, "three lights");
 }
 
 // Two media in one place are one medium with the summed coefficients; here of equal phase functions.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
 
 #include "support/law_scenes.h"
 #include "support/measure.h"
@@ -29,6 +30,12 @@ optics::PointLight point() {
   l.power = Rgb(60);
   return l;
 }
+optics::PointLight point_above() {
+  optics::PointLight l;
+  l.position = {-0.5, 16, 0.5};
+  l.power = Rgb(20000);
+  return l;
+}
 optics::SphereLight sphere() {
   optics::SphereLight l;
   l.center = {-0.5, 0.4, 0.5};
@@ -53,17 +60,22 @@ optics::DistantLight disc() {
 }
 
 // Density, equi-angular and mixed sampling, with one light sample and with four, have one mean: each against
-// the mixture with one sample, to 4 standard errors. The point light's region has a heavy tail under density
-// sampling alone, whose error is then larger, not wrong.
+// the mixture with one sample, to 4 standard errors. Around a point light within the medium the square of
+// what density sampling gathers has no finite integral (1/d^4 over a volume), so it has no standard error to
+// be judged by: it is compared with the light above the fog.
 TEST(Strategies, Agree) {
-  const std::pair<const char*, optics::Light> lights[] = {
-      {"point", point()}, {"sphere", sphere()}, {"quad", quad()}, {"disc", disc()}};
+  const std::pair<const char*, optics::Light> lights[] = {{"point", point()},
+                                                          {"point above", point_above()},
+                                                          {"sphere", sphere()},
+                                                          {"quad", quad()},
+                                                          {"disc", disc()}};
   for (const auto& [name, light] : lights)
     for (const int bounces : {0, 2}) {
       const scene::Scene scene = foggy(light, bounces).scene;
       const Estimate mixed = measure(scene).whole();
       for (const render::Distance distance :
-           {render::Distance::mis, render::Distance::density, render::Distance::equiangular})
+           {render::Distance::mis, render::Distance::density, render::Distance::equiangular}) {
+        if (distance == render::Distance::density && std::string_view(name) == "point") continue;
         for (const int light_samples : {1, 4}) {
           scene::Scene other = scene;
           other.settings.light_samples = light_samples;
@@ -75,6 +87,7 @@ TEST(Strategies, Agree) {
                           std::to_string(static_cast<int>(distance)) + ", light samples " +
                           std::to_string(light_samples));
         }
+      }
     }
 }
 
