@@ -1,10 +1,17 @@
 // Camera rays, in render space.
 #pragma once
 
-#include "base/sampler.h"
+#include <cstdint>
+
 #include "compile/compiled_scene.h"
 
 namespace tyndall::render {
+
+// One path through a pixel, to be traced.
+struct CameraSample {
+  int x = 0, y = 0;
+  std::uint64_t sample = 0;
+};
 
 class CameraRays {
  public:

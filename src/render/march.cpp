@@ -66,58 +66,98 @@ void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
   }
 }
 
-// The segments of each volume's stay, and room for the outputs of its program.
+// The segments of each volume's stay.
 void lay_blocks(const CompiledScene& world, March& m) {
   m.blocks.clear();
-  std::size_t floats = 0;
   for (const auto& i : m.intervals) {
     Block block;
     block.volume = i.volume;
-    block.rows = floats;
     for (const Region& r : m.regions) {
       if (!(i.t0 <= r.t.lo && r.t.hi <= i.t1)) continue;
       if (block.count == 0) block.first = r.first;
       block.count = r.first + r.count - block.first;
     }
     if (block.count == 0) continue;
-    const std::uint32_t medium = world.volumes[i.volume].medium;
-    block.row_length = world.media[medium].homogeneous ? 1 : block.count;
-    floats += block.row_length * world.scene.media[medium].full.outputs.size();
+    block.row_length = world.media[world.volumes[i.volume].medium].homogeneous ? 1 : block.count;
     m.blocks.push_back(block);
   }
-  if (m.pool.size() < floats) m.pool.resize(floats);
 }
 
-// Runs the programs: one batch a volume, over all the segments of its stay.
-void evaluate_blocks(const CompiledScene& world, std::uint32_t seed, Worker& worker, March& m) {
-  for (const Block& b : m.blocks) {
-    const compile::CompiledVolume& volume = world.volumes[b.volume];
-    const vm::Program& program = world.scene.media[volume.medium].full;
-    if (program.constants.size() == program.operand_count()) {  // nothing to run
-      for (std::size_t k = 0; k < program.outputs.size(); ++k)
-        m.pool[b.rows + k] = program.constants[program.outputs[k]];
-      continue;
+// The blocks of all rays, those of one medium next to each other: one batch each, whose rows they share.
+// Gives the floats that the batches' outputs take.
+std::size_t lay_batches(const CompiledScene& world, std::span<const MarchRequest> requests, Worker& worker) {
+  std::vector<MarchBatchEntry>& entries = worker.march_batch;
+  entries.clear();
+  for (std::uint32_t r = 0; r < requests.size(); ++r)
+    for (std::uint32_t b = 0; b < requests[r].out->blocks.size(); ++b)
+      entries.push_back({world.volumes[requests[r].out->blocks[b].volume].medium, r, b});
+  std::sort(entries.begin(), entries.end());
+  std::size_t floats = 0;
+  for (auto first = entries.begin(); first != entries.end();) {
+    std::size_t lanes = 0;
+    auto last = first;
+    for (; last != entries.end() && last->medium == first->medium; ++last) {
+      Block& block = requests[last->request].out->blocks[last->block];
+      block.rows = floats + lanes;
+      lanes += block.row_length;
     }
-    MediumLanes lanes(world, volume, program, worker);
-    lanes.reserve(b.row_length);
-    if (b.row_length > 1 || !world.media[volume.medium].homogeneous)
-      lanes.set(m.ray, 0, b.row_length, [&](std::size_t k) {
-        const auto s = static_cast<std::uint32_t>(b.first + k);
-        return m.t0[s] + jitter(seed, s) * m.dt[s];
-      });
-    worker.outputs.clear();
+    for (; first != last; ++first) requests[first->request].out->blocks[first->block].pitch = lanes;
+    floats += lanes * world.scene.media[std::prev(last)->medium].full.outputs.size();
+  }
+  return floats;
+}
+
+// Runs one medium's program over the segments of all rays in it.
+void evaluate_batch(const CompiledScene& world, std::span<const MarchRequest> requests,
+                    std::span<const MarchBatchEntry> entries, Worker& worker) {
+  const std::uint32_t medium = entries.front().medium;
+  const vm::Program& program = world.scene.media[medium].full;
+  const Block& front = requests[entries.front().request].out->blocks[entries.front().block];
+  float* const rows = worker.march_pool.data() + front.rows;
+  const std::size_t count = front.pitch;
+  if (program.constants.size() == program.operand_count()) {  // nothing to run
     for (std::size_t k = 0; k < program.outputs.size(); ++k)
-      worker.outputs.push_back(m.pool.data() + b.rows + k * b.row_length);
-    lanes.run(b.row_length, worker.outputs);
-    for (std::size_t k = 0; k < worker.outputs.size(); ++k)
-      clamp_bad_values(worker.outputs[k], b.row_length, world.media[volume.medium].may_be_negative[k],
-                       volume.medium, k, worker);
+      std::fill_n(rows + k * count, count, program.constants[program.outputs[k]]);
+    return;
+  }
+  MediumLanes lanes(world, program, worker);
+  lanes.reserve(count);
+  if (!world.media[medium].homogeneous) {
+    std::size_t lane = 0;
+    for (const MarchBatchEntry& e : entries) {
+      const MarchRequest& request = requests[e.request];
+      const March& m = *request.out;
+      const Block& b = m.blocks[e.block];
+      lanes.set(world.volumes[b.volume], m.ray, lane, b.row_length, [&](std::size_t k) {
+        const auto s = static_cast<std::uint32_t>(b.first + k);
+        return m.t0[s] + jitter(request.seed, s) * m.dt[s];
+      });
+      lane += b.row_length;
+    }
+  }
+  worker.outputs.clear();
+  for (std::size_t k = 0; k < program.outputs.size(); ++k) worker.outputs.push_back(rows + k * count);
+  lanes.run(count, worker.outputs);
+  for (std::size_t k = 0; k < worker.outputs.size(); ++k)
+    clamp_bad_values(worker.outputs[k], count, world.media[medium].may_be_negative[k], medium, k, worker);
+}
+
+// Runs the programs: one batch a medium.
+void evaluate(const CompiledScene& world, std::span<const MarchRequest> requests, Worker& worker) {
+  const std::size_t floats = lay_batches(world, requests, worker);
+  if (worker.march_pool.size() < floats) worker.march_pool.resize(floats);
+  const std::span<const MarchBatchEntry> entries = worker.march_batch;
+  for (std::size_t first = 0; first < entries.size();) {
+    std::size_t last = first;
+    while (last < entries.size() && entries[last].medium == entries[first].medium) ++last;
+    evaluate_batch(world, requests, entries.subspan(first, last - first), worker);
+    first = last;
   }
 }
 
 // Adds one output of a block to a row of segments.
 void add_output(const March& m, const Block& b, std::size_t output, std::vector<float>& row) {
-  const float* from = m.pool.data() + b.rows + output * b.row_length;
+  const float* from = m.pool + b.rows + output * b.pitch;
   float* to = row.data() + b.first;
   if (b.row_length == 1)
     for (std::uint32_t k = 0; k < b.count; ++k) to[k] += from[0];
@@ -184,20 +224,32 @@ void accumulate(const CompiledScene& world, Worker& worker, March& m) {
 
 }  // namespace
 
+void march(const CompiledScene& world, std::span<const MarchRequest> requests, Worker& worker) {
+  for (const MarchRequest& request : requests) {
+    March& m = *request.out;
+    m.ray = request.ray;
+    m.channels = world.features.chromatic ? 3 : 1;
+    m.extinction_channels = world.features.chromatic_extinction ? 3 : 1;
+    m.intervals.clear();
+    if (world.features.volumes) world.volume_intervals(m.ray, request.kind, m.intervals);
+    lay_segments(world, worker, m);
+    lay_blocks(world, m);
+  }
+  evaluate(world, requests, worker);
+  for (const MarchRequest& request : requests) {
+    March& m = *request.out;
+    m.pool = worker.march_pool.data();
+    add_coefficients(world, m);
+    accumulate(world, worker, m);
+    worker.statistics.marches += m.count > 0;
+    worker.statistics.segments += m.count;
+  }
+}
+
 void march(const CompiledScene& world, const compile::Ray& ray, compile::RayKind kind, std::uint32_t seed,
            Worker& worker, March& out) {
-  out.ray = ray;
-  out.channels = world.features.chromatic ? 3 : 1;
-  out.extinction_channels = world.features.chromatic_extinction ? 3 : 1;
-  out.intervals.clear();
-  if (world.features.volumes) world.volume_intervals(ray, kind, out.intervals);
-  lay_segments(world, worker, out);
-  lay_blocks(world, out);
-  evaluate_blocks(world, seed, worker, out);
-  add_coefficients(world, out);
-  accumulate(world, worker, out);
-  worker.statistics.marches += out.count > 0;
-  worker.statistics.segments += out.count;
+  const MarchRequest request{ray, kind, seed, &out};
+  march(world, std::span(&request, 1), worker);
 }
 
 std::uint32_t March::segment_at(double t) const {

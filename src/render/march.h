@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/interval.h"
@@ -29,6 +31,7 @@ struct Region {
 struct Block {
   std::uint32_t volume = 0, first = 0, count = 0;
   std::size_t rows = 0;          // where the first row starts
+  std::size_t pitch = 0;         // from one row to the next: rays that are marched together share their rows
   std::uint32_t row_length = 0;  // count, or 1
 
   bool holds(std::uint32_t segment) const { return first <= segment && segment < first + count; }
@@ -48,7 +51,7 @@ struct March {
   Rgb emitted;                                   // ∫ emission T over the whole ray
   std::vector<Region> regions;
   std::vector<Block> blocks;
-  std::vector<float> pool;
+  const float* pool = nullptr;                  // the worker's: holds until its next march
   std::vector<Intervald> scattering_stretches;  // of the regions that scatter
   std::vector<compile::VolumeInterval> intervals;
 
@@ -59,7 +62,7 @@ struct March {
   int extinction_row(int c) const { return extinction_channels == 1 ? 0 : c; }
   // Output k of a block at a segment that it holds.
   float output(const Block& block, std::size_t k, std::uint32_t segment) const {
-    return pool[block.rows + k * block.row_length + (block.row_length == 1 ? 0 : segment - block.first)];
+    return pool[block.rows + k * block.pitch + (block.row_length == 1 ? 0 : segment - block.first)];
   }
   // The segment that holds t (of a region; the nearest one for a t in a gap by rounding).
   std::uint32_t segment_at(double t) const;
@@ -92,7 +95,23 @@ inline double jitter(std::uint32_t seed, std::uint32_t i) {
   return i & 1 ? 1 - place : place;
 }
 
-// Marches the ray over [0, ray.t_max): intervals, segments, programs, running sums.
+// A ray to be marched over [0, ray.t_max): intervals, segments, programs, running sums.
+struct MarchRequest {
+  compile::Ray ray;
+  compile::RayKind kind{};
+  std::uint32_t seed = 0;  // of its jitter
+  March* out = nullptr;
+};
+
+// A block of a request, sorted by medium: its place among the lanes of a batch.
+struct MarchBatchEntry {
+  std::uint32_t medium = 0, request = 0, block = 0;
+  auto operator<=>(const MarchBatchEntry&) const = default;
+};
+
+// Marches rays together: the segments of all are the lanes of one batch for each medium.
+void march(const compile::CompiledScene& world, std::span<const MarchRequest> requests, Worker& worker);
+// One ray alone.
 void march(const compile::CompiledScene& world, const compile::Ray& ray, compile::RayKind kind,
            std::uint32_t seed, Worker& worker, March& out);
 

@@ -5,13 +5,8 @@
 
 namespace tyndall::render {
 
-MediumLanes::MediumLanes(const compile::CompiledScene& world, const compile::CompiledVolume& volume,
-                         const vm::Program& program, Worker& worker)
-    : world_(world),
-      volume_(volume),
-      program_(program),
-      worker_(worker),
-      time_(static_cast<float>(world.scene.time)) {
+MediumLanes::MediumLanes(const compile::CompiledScene& world, const vm::Program& program, Worker& worker)
+    : world_(world), program_(program), worker_(worker), time_(static_cast<float>(world.scene.time)) {
   for (const vm::Input input : program.inputs) {
     needs_p_ |= input <= vm::Input::p_z;
     needs_world_ |= vm::Input::P_x <= input && input <= vm::Input::P_z;

@@ -1,4 +1,4 @@
-// Points inside a volume as lanes of its medium's programs.
+// Points inside volumes as lanes of their medium's programs.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,17 @@
 
 namespace tyndall::render {
 
-// The inputs that `program` reads, for points of rays through a volume.
+// The inputs that a medium's `program` reads, for points of rays through volumes filled with it.
 class MediumLanes {
  public:
-  MediumLanes(const compile::CompiledScene& world, const compile::CompiledVolume& volume,
-              const vm::Program& program, Worker& worker);
+  MediumLanes(const compile::CompiledScene& world, const vm::Program& program, Worker& worker);
 
   // Makes room for `capacity` lanes.
   void reserve(std::size_t capacity);
-  // Sets lanes [first, first + count) to the points of the ray at t(0), t(1), … [m].
+  // Sets lanes [first, first + count) to the points of the ray at t(0), t(1), … [m] inside the volume.
   template <class T>
-  void set(const compile::Ray& ray, std::size_t first, std::size_t count, T&& t) {
+  void set(const compile::CompiledVolume& volume, const compile::Ray& ray, std::size_t first,
+           std::size_t count, T&& t) {
     const auto put = [&](vm::Input input, const Vec3d& origin, const Vec3d& direction) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         float* lanes = worker_.inputs[static_cast<std::size_t>(input) + axis].data() + first;
@@ -28,8 +28,8 @@ class MediumLanes {
       }
     };
     if (needs_p_)
-      put(vm::Input::p_x, volume_.medium_from_render.point(ray.origin),
-          volume_.medium_from_render.vector(ray.direction));
+      put(vm::Input::p_x, volume.medium_from_render.point(ray.origin),
+          volume.medium_from_render.vector(ray.direction));
     if (needs_world_) put(vm::Input::P_x, ray.origin + world_.origin, ray.direction);
   }
   // Runs the program over `lanes` lanes; output k goes to outputs[k].
@@ -37,7 +37,6 @@ class MediumLanes {
 
  private:
   const compile::CompiledScene& world_;
-  const compile::CompiledVolume& volume_;
   const vm::Program& program_;
   Worker& worker_;
   bool needs_p_ = false, needs_world_ = false;

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <optional>
 
+#include "base/check.h"
 #include "base/numerics.h"
 #include "optics/light_sampling.h"
 #include "render/decisions.h"
+#include "render/path_state.h"
+#include "render/worker.h"
 
 namespace tyndall::render {
 
@@ -18,58 +21,90 @@ using compile::CompiledScene;
 using compile::Ray;
 using compile::RayKind;
 
-// Where a ray comes from, as far as the MIS weight of what it meets needs to know.
-struct Origin {
-  enum class Kind : std::uint8_t { camera, volume, surface } kind = Kind::camera;
-  Vec3d position;
-  double pdf = 0;                               // volume: per metre and steradian; surface: per steradian
-  const LightStrategies* strategies = nullptr;  // volume: of the ray that was scattered
-  std::uint32_t segment = 0;
-  double t = 0;
-};
-
-// A ray to be traced, with all that was decided before it.
-struct PathState {
-  Ray ray;
-  Rgb throughput{1};
-  std::uint32_t depth = 0;  // scatterings so far
-  std::uint32_t branch = 0;
-  Origin origin;
-};
+Sampler sampler_for(const CompiledScene& world, const CameraSample& s) {
+  return {world.scene.settings.seed, static_cast<std::uint32_t>(world.scene.frame),
+          static_cast<std::uint32_t>(s.x), static_cast<std::uint32_t>(s.y),
+          static_cast<std::uint32_t>(s.sample)};
+}
 
 class PathTracer {
  public:
-  PathTracer(const CompiledScene& world, const PathSettings& settings, const Sampler& sampler, Worker& worker,
+  PathTracer(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
+             std::span<const CameraSample> samples, Worker& worker, std::span<Rgb> radiance,
              std::string* trace)
-      : world_(world), settings_(settings), sampler_(sampler), worker_(worker), trace_(trace) {}
+      : world_(world),
+        camera_(camera),
+        settings_(settings),
+        samples_(samples),
+        worker_(worker),
+        radiance_(radiance),
+        trace_(trace) {}
 
-  Rgb run(const Ray& camera_ray) {
-    PathState state;
-    state.ray = camera_ray;
-    follow(state);
-    if (behind_) {
-      PathState surface = *behind_;
-      behind_.reset();
-      follow(surface);
+  // All paths go one ray on at a time: rays, one march of all, what each meets, one batch of shadow rays.
+  void run() {
+    std::fill(radiance_.begin(), radiance_.end(), Rgb{});
+    while (start_paths(), active_ > 0) {
+      worker_.march_requests.clear();
+      for (std::size_t i = 0; i < active_; ++i) trace_ray(slot(i));
+      march(world_, worker_.march_requests, worker_);
+      const std::size_t before = active_;
+      for (std::size_t i = 0; i < before; ++i) ended_.push_back(!advance(i));
+      trace_shadows();
+      remove_ended();
     }
-    return radiance_;
   }
 
  private:
-  // Follows one path until it ends; a camera ray that meets both medium and surface leaves the surface's path
-  // in behind_.
-  void follow(PathState& state) {
-    for (int scratch = 0;; scratch ^= 1)
-      if (!step(state, worker_.marches[scratch], worker_.strategies[scratch])) return;
+  PathSlot& slot(std::size_t i) { return *worker_.slots[i]; }
+
+  // The next free slot, its memory from an earlier path.
+  PathSlot& new_slot() {
+    if (active_ == worker_.slots.size()) worker_.slots.push_back(std::make_unique<PathSlot>());
+    return slot(active_++);
   }
 
-  // One ray: what it gathers, the direct light along it, and the next ray. False when the path ends.
-  bool step(PathState& s, March& m, LightStrategies& strategies) {
+  // New camera samples take the places of paths that have ended.
+  void start_paths() {
+    while (active_ < paths_together && started_ < samples_.size()) {
+      const CameraSample& s = samples_[started_];
+      PathSlot& path = new_slot();
+      path.sampler = sampler_for(world_, s);
+      path.sample = static_cast<std::uint32_t>(started_++);
+      const SobolPoint u = path.sampler->point(decision(Decision::pixel, 0, 0), 4);
+      path.state = {};
+      path.state.ray = camera_.ray(s.x, s.y, u[0], u[1], u[2], u[3]);
+      ++worker_.statistics.samples;
+    }
+  }
+
+  // Keeps the order of the others: a sample's light is added in an order of its own.
+  void remove_ended() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < active_; ++i)
+      if (i >= ended_.size() || !ended_[i]) std::swap(worker_.slots[kept++], worker_.slots[i]);
+    active_ = kept;
+    ended_.clear();
+  }
+
+  void trace_ray(PathSlot& path) {
+    PathState& s = path.state;
+    path.current ^= 1;
     ++worker_.statistics.rays;
-    const RayKind kind = s.origin.kind == Origin::Kind::camera ? RayKind::camera : RayKind::scattered;
-    const auto hit = world_.closest_hit(s.ray, kind);
-    s.ray.t_max = hit ? hit->t : infinity;
-    march(world_, s.ray, kind, sampler_.bits(id(Decision::jitter, s), 0), worker_, m);
+    const RayKind kind = s.origin.kind == PathOrigin::Kind::camera ? RayKind::camera : RayKind::scattered;
+    path.hit = world_.closest_hit(s.ray, kind);
+    s.ray.t_max = path.hit ? path.hit->t : infinity;
+    path_ = &path;
+    worker_.march_requests.push_back(
+        {s.ray, kind, path.sampler->bits(id(Decision::jitter, s), 0), &path.march()});
+  }
+
+  // What the ray of path i gathers, the direct light along it, and its next ray. False when the path ends.
+  bool advance(std::size_t i) {
+    path_ = &slot(i);
+    PathState& s = path_->state;
+    const March& m = path_->march();
+    const auto& hit = path_->hit;
+    worker_.shadows.set_sample(path_->sample);
     if (trace_)
       say("{}depth {} ray from ({:.6g}, {:.6g}, {:.6g}) along ({:.6g}, {:.6g}, {:.6g}): {} segments, "
           "transmittance {:.6g}, throughput {:.6g}\n",
@@ -98,7 +133,17 @@ class PathTracer {
     }
     const bool continues =
         s.depth < static_cast<std::uint32_t>(settings_.bounces) || settings_.gathers_after_last;
-    return scatter(s, m, strategies, surface, at_end, continues);
+    return scatter(s, m, path_->light(), surface, at_end, continues);
+  }
+
+  void trace_shadows() {
+    for (const ShadowRay& ray : worker_.shadows.trace(world_, worker_)) {
+      radiance_[ray.sample] += ray.contribution;
+      if (trace_ && !is_black(ray.contribution))
+        say("  + ({:.6g}, {:.6g}, {:.6g}) direct light\n", ray.contribution.x, ray.contribution.y,
+            ray.contribution.z);
+    }
+    worker_.shadows.clear();
   }
 
   // Direct light in the volume and on the surface, and the choice of the next ray.
@@ -109,7 +154,8 @@ class PathTracer {
     const double volume_mass = std::max(0.0f, luminance(in_volume)),
                  surface_mass = std::max(0.0f, luminance(on_surface));
     if (!(volume_mass + surface_mass > 0)) return false;
-    const bool both = s.origin.kind == Origin::Kind::camera;  // camera rays follow both, deeper ones choose
+    const bool both =
+        s.origin.kind == PathOrigin::Kind::camera;  // camera rays follow both, deeper ones choose
     const double volume_probability = both ? (volume_mass > 0) : volume_mass / (volume_mass + surface_mass);
     strategies.set(world_, m, s.throughput, settings_.distance);
     if (volume_mass > 0) light_volume(s, strategies, continues, volume_probability);
@@ -125,9 +171,19 @@ class PathTracer {
         s = next;
         return goes_on;
       }
-      if (goes_on) behind_ = next;
+      if (goes_on) follow_behind(next);
     }
     return volume_mass > 0 && continues && continue_in_volume(s, m, strategies, volume_probability);
+  }
+
+  // A camera ray that meets both medium and surface goes on twice. The new path takes its first step in the
+  // next round.
+  void follow_behind(const PathState& state) {
+    PathSlot& from = *path_;
+    PathSlot& path = new_slot();
+    path.state = state;
+    path.sample = from.sample;
+    path.sampler = from.sampler;
   }
 
   void light_volume(const PathState& s, LightStrategies& strategies, bool continues,
@@ -135,11 +191,10 @@ class PathTracer {
     if (strategies.empty()) return;
     const int samples = s.depth == 0 ? settings_.light_samples : 1;
     for (int k = 0; k < samples; ++k) {
-      const std::uint32_t shadow_seed = sampler_.bits(id(Decision::shadow, s), k);
+      const std::uint32_t shadow_seed = sampler().bits(id(Decision::shadow, s), k);
       strategies.sample(many(Decision::light, s, k, samples), shadow_seed, s.throughput, continues,
                         volume_probability, samples, worker_);
     }
-    add(worker_.shadows.trace(world_, worker_), "direct light in media");
   }
 
   void light_surface(const PathState& s, const SurfacePoint& surface, bool continues) {
@@ -148,11 +203,10 @@ class PathTracer {
     if (lights.empty()) return;
     const int samples = s.depth == 0 ? settings_.light_samples : 1;
     for (int k = 0; k < samples; ++k) {
-      const std::uint32_t shadow_seed = sampler_.bits(id(Decision::shadow, s), 0x10000 + k);
+      const std::uint32_t shadow_seed = sampler().bits(id(Decision::shadow, s), 0x10000 + k);
       sample_surface_light(world_, surface, lights, many(Decision::light_surface, s, k, samples), shadow_seed,
                            s.throughput, continues, samples, worker_);
     }
-    add(worker_.shadows.trace(world_, worker_), "direct light on a surface");
   }
 
   bool continue_in_volume(PathState& s, const March& m, const LightStrategies& strategies,
@@ -172,7 +226,7 @@ class PathTracer {
     const Vec3d x = s.ray.origin + s.ray.direction * t;
     const Vec3f w =
         optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[3]);
-    s.origin = {Origin::Kind::volume, x, pdf_t * pdf_phase, &strategies, segment, t};
+    s.origin = {PathOrigin::Kind::volume, x, pdf_t * pdf_phase, &strategies, segment, t};
     s.ray = {x, normalize(Vec3d(w)), infinity};
     return next_depth(s);
   }
@@ -181,8 +235,12 @@ class PathTracer {
     const SobolPoint v = point(Decision::direction, s, 2);
     const Vec3d w = sample_cosine(surface.normal, v[0], v[1]);
     s.throughput *= surface.reflectance;  // (reflectance / pi) cosine / pdf
-    s.origin = {
-        Origin::Kind::surface, surface.offset_position, cosine_pdf(dot(surface.normal, w)), nullptr, 0, 0};
+    s.origin = {PathOrigin::Kind::surface,
+                surface.offset_position,
+                cosine_pdf(dot(surface.normal, w)),
+                nullptr,
+                0,
+                0};
     s.ray = {surface.offset_position, w, infinity};
     s.branch = s.branch || s.depth == 0;
     return next_depth(s);
@@ -198,7 +256,7 @@ class PathTracer {
     if (!(carried > 0)) return false;
     if (s.depth < first_roulette) return true;
     const float survival = std::clamp(carried, least_survival, 1.0f);
-    if (sampler_.independent(id(Decision::roulette, s), 0) >= survival) return false;
+    if (sampler().independent(id(Decision::roulette, s), 0) >= survival) return false;
     s.throughput /= survival;
     return true;
   }
@@ -222,14 +280,14 @@ class PathTracer {
     // The path was at depth - 1 when it was scattered towards this light.
     const int samples = s.depth == 1 ? settings_.light_samples : 1;
     switch (s.origin.kind) {
-      case Origin::Kind::camera:
+      case PathOrigin::Kind::camera:
         return 1;
-      case Origin::Kind::volume: {
+      case PathOrigin::Kind::volume: {
         const double p = s.origin.strategies->pdf(light, s.origin.segment, s.origin.t, s.ray.direction, y,
                                                   normal, worker_);
         return static_cast<float>(1 - balance(samples, p, s.origin.pdf));
       }
-      case Origin::Kind::surface: {
+      case PathOrigin::Kind::surface: {
         const double solid_angle =
             optics::pdf_light(world_.lights[light], s.origin.position, s.ray.direction, y, normal);
         if (solid_angle == 0) return 1;
@@ -246,15 +304,20 @@ class PathTracer {
   static constexpr std::uint32_t first_roulette = 5;
   static constexpr float least_survival = 0.1f;
 
+  // How many paths advance together, at least while there are samples: their segments fill batches of
+  // hundreds of lanes.
+  static constexpr std::size_t paths_together = 16;
+
+  const Sampler& sampler() const { return *path_->sampler; }
   std::uint64_t id(Decision d, const PathState& s) const { return decision(d, s.depth, s.branch); }
   SobolPoint point(Decision d, const PathState& s, int dimensions) const {
-    return sampler_.point(id(d, s), dimensions);
+    return sampler().point(id(d, s), dimensions);
   }
   SobolPoint many(Decision d, const PathState& s, int k, int count) const {
-    return sampler_.point(id(d, s), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(count));
+    return sampler().point(id(d, s), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(count));
   }
   void add(const Rgb& radiance, std::string_view what) {
-    radiance_ += radiance;
+    radiance_[path_->sample] += radiance;
     if (trace_ && !is_black(radiance))
       say("  + ({:.6g}, {:.6g}, {:.6g}) {}\n", radiance.x, radiance.y, radiance.z, what);
   }
@@ -264,15 +327,21 @@ class PathTracer {
   }
 
   const CompiledScene& world_;
+  const CameraRays& camera_;
   const PathSettings& settings_;
-  const Sampler& sampler_;
+  std::span<const CameraSample> samples_;
   Worker& worker_;
+  std::span<Rgb> radiance_;
   std::string* trace_;
-  Rgb radiance_;
-  std::optional<PathState> behind_;
+  std::size_t active_ = 0, started_ = 0;  // slots in use: the first; samples begun: the first
+  std::vector<bool> ended_;               // of the slots that advanced in this round
+  PathSlot* path_ = nullptr;              // the one at work
 };
 
 }  // namespace
+
+Worker::Worker() = default;
+Worker::~Worker() = default;
 
 PathSettings path_settings(const CompiledScene& world, const RenderOptions& options) {
   const compile::Features& f = world.features;
@@ -285,11 +354,11 @@ PathSettings path_settings(const CompiledScene& world, const RenderOptions& opti
   return settings;
 }
 
-Rgb trace_path(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings, int x,
-               int y, const Sampler& sampler, Worker& worker, std::string* trace) {
-  ++worker.statistics.samples;
-  const SobolPoint u = sampler.point(decision(Decision::pixel, 0, 0), 4);
-  return PathTracer(world, settings, sampler, worker, trace).run(camera.ray(x, y, u[0], u[1], u[2], u[3]));
+void trace_paths(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
+                 std::span<const CameraSample> samples, Worker& worker, std::span<Rgb> radiance,
+                 std::string* trace) {
+  CHECK_EQ(samples.size(), radiance.size());
+  PathTracer(world, camera, settings, samples, worker, radiance, trace).run();
 }
 
 }  // namespace tyndall::render

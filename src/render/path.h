@@ -1,9 +1,10 @@
-// The path loop: one camera sample from film to lights.
+// The path loop: camera samples from film to lights.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 
-#include "base/sampler.h"
 #include "compile/compiled_scene.h"
 #include "render/camera.h"
 #include "render/render.h"
@@ -22,8 +23,11 @@ struct PathSettings {
 };
 PathSettings path_settings(const compile::CompiledScene& world, const RenderOptions& options);
 
-// Radiance along one camera sample. With `trace`, appends a line of text for each event.
-Rgb trace_path(const compile::CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
-               int x, int y, const Sampler& sampler, Worker& worker, std::string* trace = nullptr);
+// Radiance along each camera sample. Paths advance together, ray by ray, so that their marches fill whole
+// batches; what comes out for a sample depends on none of the others. With `trace`, appends a line of text
+// for each event.
+void trace_paths(const compile::CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
+                 std::span<const CameraSample> samples, Worker& worker, std::span<Rgb> radiance,
+                 std::string* trace = nullptr);
 
 }  // namespace tyndall::render

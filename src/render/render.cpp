@@ -36,11 +36,6 @@ std::vector<Tile> tiles_of(const RenderOptions::Crop& crop) {
 // to within a pass.
 int pass_length(int done, int rest) { return std::min({done == 0 ? 1 : done, 16, rest}); }
 
-Sampler sampler_for(const CompiledScene& world, int x, int y, std::uint64_t sample) {
-  return {world.scene.settings.seed, static_cast<std::uint32_t>(world.scene.frame),
-          static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(sample)};
-}
-
 // Adds what a worker counted.
 void sum_into(Statistics& total, const Worker& worker) {
   const Statistics& s = worker.statistics;
@@ -103,21 +98,27 @@ class Render {
   bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
 
   void render_tile(const Tile& tile, int first_sample, int length, Worker& worker) {
+    std::vector<CameraSample>& samples = worker.tile_samples;
+    samples.clear();
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x)
-        for (int s = first_sample; s < first_sample + length; ++s) {
-          const Rgb radiance =
-              trace_path(world_, camera_, settings_, x, y, sampler_for(world_, x, y, s), worker);
-          if (all_finite(radiance)) {
-            film_.add(x, y, radiance);
-            continue;
-          }
-          film_.add(x, y, {});
-          ++worker.statistics.bad_samples;
-          const Statistics::BadSample bad{static_cast<std::uint64_t>(s), y, x};
-          auto& first = worker.statistics.first_bad_sample;
-          if (!first || bad < *first) first = bad;
-        }
+        for (int s = first_sample; s < first_sample + length; ++s)
+          samples.push_back({x, y, static_cast<std::uint64_t>(s)});
+    worker.tile_radiance.resize(samples.size());
+    trace_paths(world_, camera_, settings_, samples, worker, worker.tile_radiance);
+    for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], worker.tile_radiance[i], worker);
+  }
+
+  void add(const CameraSample& s, const Rgb& radiance, Worker& worker) {
+    if (all_finite(radiance)) {
+      film_.add(s.x, s.y, radiance);
+      return;
+    }
+    film_.add(s.x, s.y, {});
+    ++worker.statistics.bad_samples;
+    const Statistics::BadSample bad{s.sample, s.y, s.x};
+    auto& first = worker.statistics.first_bad_sample;
+    if (!first || bad < *first) first = bad;
   }
 
   void report(const Progress& progress, std::uint64_t done, std::uint64_t total) {
@@ -168,8 +169,9 @@ Replay replay(const CompiledScene& world, const RenderOptions& options, int x, i
   const CameraRays camera(world);
   Worker worker;
   Replay out;
-  out.radiance = trace_path(world, camera, path_settings(world, options), x, y,
-                            sampler_for(world, x, y, sample), worker, &out.trace);
+  const CameraSample camera_sample{x, y, sample};
+  trace_paths(world, camera, path_settings(world, options), std::span(&camera_sample, 1), worker,
+              std::span(&out.radiance, 1), &out.trace);
   return out;
 }
 

@@ -21,7 +21,7 @@ std::uint32_t segments_for(double length, double step, Worker& worker) {
 
 }  // namespace
 
-Rgb ShadowBatch::trace(const compile::CompiledScene& world, Worker& worker) {
+std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& world, Worker& worker) {
   depth_.assign(rays_.size(), Vec3d{});
   stays_.clear();
   for (std::uint32_t r = 0; r < rays_.size(); ++r) {
@@ -33,16 +33,14 @@ Rgb ShadowBatch::trace(const compile::CompiledScene& world, Worker& worker) {
   }
   march_stays(world, worker);
 
-  Rgb sum;
   for (std::size_t r = 0; r < rays_.size(); ++r) {
     const Vec3d& tau = depth_[r];
     if (tau.x == tau.y && tau.y == tau.z)
-      sum += rays_[r].contribution * static_cast<float>(std::exp(-tau.x));
+      rays_[r].contribution *= static_cast<float>(std::exp(-tau.x));
     else
-      sum += rays_[r].contribution * Rgb(Vec3d{std::exp(-tau.x), std::exp(-tau.y), std::exp(-tau.z)});
+      rays_[r].contribution *= Rgb(Vec3d{std::exp(-tau.x), std::exp(-tau.y), std::exp(-tau.z)});
   }
-  rays_.clear();
-  return sum;
+  return rays_;
 }
 
 // Closed forms at once; the rest is kept for the march.
@@ -57,29 +55,28 @@ void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32
       continue;
     }
     const std::uint32_t n = medium.homogeneous ? 1 : segments_for(length, volume.step, worker);
-    stays_.push_back({i.volume, ray, n, i.t0, length / n});
+    stays_.push_back({volume.medium, i.volume, ray, n, i.t0, length / n});
   }
 }
 
-// Runs the extinction programs volume by volume, over all rays' segments.
+// Runs the extinction programs medium by medium, over all rays' segments.
 void ShadowBatch::march_stays(const compile::CompiledScene& world, Worker& worker) {
   std::stable_sort(stays_.begin(), stays_.end(),
-                   [](const Stay& a, const Stay& b) { return a.volume < b.volume; });
+                   [](const Stay& a, const Stay& b) { return a.medium < b.medium; });
   for (auto first = stays_.begin(); first != stays_.end();) {
     const auto last =
-        std::find_if(first, stays_.end(), [&](const Stay& s) { return s.volume != first->volume; });
-    const compile::CompiledVolume& volume = world.volumes[first->volume];
-    const scene::Medium& medium = world.scene.media[volume.medium];
+        std::find_if(first, stays_.end(), [&](const Stay& s) { return s.medium != first->medium; });
+    const scene::Medium& medium = world.scene.media[first->medium];
     const vm::Program& program = medium.extinction;
     std::size_t count = 0;
     for (auto s = first; s != last; ++s) count += s->count;
 
-    MediumLanes lanes(world, volume, program, worker);
+    MediumLanes lanes(world, program, worker);
     lanes.reserve(count);
     std::size_t lane = 0;
     for (auto s = first; s != last; lane += s->count, ++s) {
       const std::uint32_t seed = rays_[s->ray].seed;
-      lanes.set(rays_[s->ray].ray, lane, s->count, [&](std::size_t k) {
+      lanes.set(world.volumes[s->volume], rays_[s->ray].ray, lane, s->count, [&](std::size_t k) {
         return s->t0 + (static_cast<double>(k) + jitter(seed, static_cast<std::uint32_t>(k))) * s->dt;
       });
     }
@@ -92,7 +89,7 @@ void ShadowBatch::march_stays(const compile::CompiledScene& world, Worker& worke
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint8_t output = medium.extinction_sigma_t[c];
       if (c > 0 && output == medium.extinction_sigma_t[c - 1]) continue;
-      clamp_bad_values(worker.outputs[output], count, false, volume.medium, medium.sigma_t[c], worker);
+      clamp_bad_values(worker.outputs[output], count, false, first->medium, medium.sigma_t[c], worker);
     }
     lane = 0;
     Vec3d tau;

@@ -2,6 +2,8 @@
 // several shadow rays fill one batch.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "compile/compiled_scene.h"
@@ -13,26 +15,34 @@ struct Worker;
 struct ShadowRay {
   compile::Ray ray;
   std::uint32_t target_light = compile::no_index;
-  Rgb contribution;        // what arrives if nothing is in the way
-  std::uint32_t seed = 0;  // of its march's jitter
+  Rgb contribution;          // what arrives if nothing is in the way
+  std::uint32_t seed = 0;    // of its march's jitter
+  std::uint32_t sample = 0;  // whose light it is: the caller's number
 };
 
 // Shadow rays waiting to be traced together.
 class ShadowBatch {
  public:
-  void add(const ShadowRay& ray) { rays_.push_back(ray); }
-  // Sum over the rays of contribution times visibility times transmittance; empties the batch.
-  Rgb trace(const compile::CompiledScene& world, Worker& worker);
+  // The rays added from now on bring light to this sample.
+  void set_sample(std::uint32_t sample) { sample_ = sample; }
+  void add(const ShadowRay& ray) {
+    rays_.push_back(ray);
+    rays_.back().sample = sample_;
+  }
+  // Leaves in each ray's contribution what arrives: times visibility and transmittance.
+  std::span<const ShadowRay> trace(const compile::CompiledScene& world, Worker& worker);
+  void clear() { rays_.clear(); }
 
  private:
   // A ray's stay in a volume that must be marched: `count` segments from t0 of length dt.
   struct Stay {
-    std::uint32_t volume, ray, count;
+    std::uint32_t medium, volume, ray, count;
     double t0, dt;
   };
   void collect_stays(const compile::CompiledScene& world, std::uint32_t ray, Worker& worker);
   void march_stays(const compile::CompiledScene& world, Worker& worker);
 
+  std::uint32_t sample_ = 0;
   std::vector<ShadowRay> rays_;
   std::vector<Vec3d> depth_;  // optical depth per ray and channel
   std::vector<compile::VolumeInterval> intervals_;

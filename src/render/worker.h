@@ -5,8 +5,10 @@
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
+#include "render/camera.h"
 #include "render/direct_light.h"
 #include "render/march.h"
 #include "render/render.h"
@@ -43,15 +45,23 @@ class BadValueCounts {
   std::map<Key, std::uint64_t> counts_;
 };
 
+struct PathSlot;
+
 struct Worker {
+  Worker();
+  ~Worker();
   vm::Machine machine;
   Statistics statistics;
   BadValueCounts bad_values;
   std::array<std::vector<float>, vm::input_count> inputs;  // lanes of one batch
   std::vector<float*> outputs;
   std::vector<float> material_outputs;
-  March marches[2];  // the current ray's and the one before, which weights what the current one meets
-  LightStrategies strategies[2];  // of the same rays
+  std::vector<CameraSample> tile_samples;
+  std::vector<Rgb> tile_radiance;
+  std::vector<std::unique_ptr<PathSlot>> slots;  // of paths on their way
+  std::vector<MarchRequest> march_requests;
+  std::vector<MarchBatchEntry> march_batch;
+  std::vector<float> march_pool;  // outputs of the media's programs, of the rays that are marched together
   LightChoice surface_lights;
   PhaseMixture phase;
   ShadowBatch shadows;

@@ -1,0 +1,48 @@
+// What one path keeps from ray to ray.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/sampler.h"
+#include "compile/compiled_scene.h"
+#include "render/direct_light.h"
+#include "render/march.h"
+
+namespace tyndall::render {
+
+// Where a ray comes from, as far as the MIS weight of what it meets needs to know.
+struct PathOrigin {
+  enum class Kind : std::uint8_t { camera, volume, surface } kind = Kind::camera;
+  Vec3d position;
+  double pdf = 0;                               // volume: per metre and steradian; surface: per steradian
+  const LightStrategies* strategies = nullptr;  // volume: of the ray that was scattered
+  std::uint32_t segment = 0;
+  double t = 0;
+};
+
+// A ray to be traced, with all that was decided before it.
+struct PathState {
+  compile::Ray ray;
+  Rgb throughput{1};
+  std::uint32_t depth = 0;  // scatterings so far
+  std::uint32_t branch = 0;
+  PathOrigin origin;
+};
+
+// A path on its way. Slots are reused, with the memory of their marches.
+struct PathSlot {
+  PathState state;
+  std::uint32_t sample = 0;  // the caller's number of the camera sample
+  std::optional<Sampler> sampler;
+  std::optional<compile::SurfaceHit> hit;  // of the current ray
+  // Of the current ray and of the one before, which weights what the current one meets.
+  March marches[2];
+  LightStrategies strategies[2];
+  std::uint32_t current = 0;
+
+  March& march() { return marches[current]; }
+  LightStrategies& light() { return strategies[current]; }
+};
+
+}  // namespace tyndall::render
