@@ -58,6 +58,13 @@ BlackbodyTable make_table() {
     table.green[i] = rgb.y;
     table.blue[i] = rgb.z;
   }
+  const auto range = [](const std::array<float, blackbody_entries>& entries) {
+    const auto [least, most] = std::minmax_element(entries.begin(), entries.end());
+    return Interval<float>{*least, *most};
+  };
+  table.red_range = range(table.red);
+  table.green_range = range(table.green);
+  table.blue_range = range(table.blue);
   return table;
 }
 

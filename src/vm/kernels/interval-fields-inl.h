@@ -1,0 +1,281 @@
+// Intervals of the noises: the value and gradient at the box's middle with a bound on the curvature where the
+// box is small against the lattice, the supremum where it is not.
+//
+// Gradient noise is twice continuously differentiable, and linear in the gradients at its corners, so every
+// extreme over all noises is a maximum over places in one cell of a sum over its corners, each with the
+// gradient that suits it best. The constants below were found so; tests/vm/noise_constants_test.cpp finds
+// them again.
+#if defined(TYNDALL_VM_KERNELS_INTERVAL_FIELDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TYNDALL_VM_KERNELS_INTERVAL_FIELDS_INL_H_
+#undef TYNDALL_VM_KERNELS_INTERVAL_FIELDS_INL_H_
+#else
+#define TYNDALL_VM_KERNELS_INTERVAL_FIELDS_INL_H_
+#endif
+
+#include "vm/kernels/fields-inl.h"
+#include "vm/kernels/interval-inl.h"
+#include "vm/kernels/slopes-inl.h"
+#include "vm/noise_constants.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tyndall::vm::HWY_NAMESPACE {
+
+// Beyond this the lattice's coordinates are no whole numbers of one step any more (hash-inl.h), and only the
+// supremum holds.
+inline constexpr float lattice_limit = 0x1p21f;
+// More than the rounding of one noise, of its slopes, and of the sum of its octaves.
+inline constexpr float noise_rounding = 4e-6f, slope_rounding = 1e-4f;
+
+// A box as its middle and its half widths, rounded up.
+template <class V>
+struct Ball {
+  V center, radius;
+};
+template <class V>
+TYNDALL_VM_INLINE Ball<V> ball_of(Bound<V> a) {
+  const V center = a.lo * V(0.5f) + a.hi * V(0.5f);
+  return {center, greater(a.hi - center, center - a.lo) * V(1.0f + 0x1p-20f)};
+}
+
+// The operands of a field; `t` is not read when there is no time.
+template <class V, bool has_time>
+struct FieldBox {
+  Bound<V> x, y, z, t;
+};
+// Coordinates that octaves have doubled beyond the largest float give NaN.
+template <bool has_time, class V>
+TYNDALL_VM_INLINE MaskOf<V> overflows(const FieldBox<V, has_time>& box) {
+  const auto space = both(both(is_bounded(box.x), is_bounded(box.y)), is_bounded(box.z));
+  if constexpr (has_time)
+    return !both(space, is_bounded(box.t));
+  else
+    return !space;
+}
+template <bool has_time, class V>
+TYNDALL_VM_INLINE MaskOf<V> may_be_nan(const FieldBox<V, has_time>& box) {
+  const auto space = either(either(box.x.nan, box.y.nan), box.z.nan);
+  if constexpr (has_time)
+    return either(space, box.t.nan);
+  else
+    return space;
+}
+
+// One noise over a box: n + g (p - middle) within `rest`, or the bounds alone where the box is too large for
+// that.
+template <class V>
+struct NoiseOverBox {
+  Slopes<V> slopes;
+  V rest, lo, hi;
+  MaskOf<V> linear;
+};
+template <bool has_time, class V>
+TYNDALL_VM_INLINE NoiseOverBox<V> noise_over_box(const FieldBox<V, has_time>& box, std::uint32_t key) {
+  constexpr NoiseConstants constants = has_time ? noise_constants4 : noise_constants3;
+  const V zero(0.0f), most(constants.supremum);
+  const Ball<V> x = ball_of(box.x), y = ball_of(box.y), z = ball_of(box.z), t = ball_of(box.t);
+  V radius = greater(greater(x.radius, y.radius), z.radius);
+  V size = greater(greater(largest_size(box.x), largest_size(box.y)), largest_size(box.z));
+  if constexpr (has_time) {
+    radius = greater(radius, t.radius);
+    size = greater(size, largest_size(box.t));
+  }
+  const V curvature = V(0.5f * constants.curvature) * radius * radius;
+  const auto small = both(curvature < most, size < V(lattice_limit));
+  NoiseOverBox<V> out{{zero, zero, zero, zero, zero}, zero, -most, most, never(zero)};
+  if (!any(small)) return out;
+  if constexpr (has_time)
+    out.slopes = noise_slopes(x.center, y.center, z.center, t.center, key);
+  else
+    out.slopes = noise_slopes(x.center, y.center, z.center, key);
+  const Slopes<V>& s = out.slopes;
+  V reach = abs(s.x) * x.radius + abs(s.y) * y.radius + abs(s.z) * z.radius;
+  V steepness = abs(s.x) + abs(s.y) + abs(s.z);
+  if constexpr (has_time) {
+    reach = reach + abs(s.t) * t.radius;
+    steepness = steepness + abs(s.t);
+  }
+  // Octaves' coordinates are rounded: their distances from the middle are a few ulps off the first octave's.
+  out.rest =
+      curvature + V(noise_rounding) + V(slope_rounding) * radius + steepness * (size + V(1.0f)) * V(0x1p-18f);
+  const V half = reach + out.rest;
+  out.lo = select(small, greater(-most, s.value - half), -most);
+  out.hi = select(small, lesser(most, s.value + half), most);
+  out.linear = both(small, half < V(0.8f * constants.supremum));
+  return out;
+}
+
+// The next octave's box, by the same floats as sum_of_octaves.
+template <class V>
+TYNDALL_VM_INLINE Bound<V> next_octave(Bound<V> a, float offset) {
+  return {a.lo * V(2.0f) + V(offset), a.hi * V(2.0f) + V(offset), a.nan};
+}
+template <bool has_time, class V>
+TYNDALL_VM_INLINE FieldBox<V, has_time> next_octave(const FieldBox<V, has_time>& box) {
+  return {next_octave(box.x, 0.3125f), next_octave(box.y, 0.6875f), next_octave(box.z, 0.4375f),
+          has_time ? next_octave(box.t, 0.5625f) : box.t};
+}
+inline float sum_of_weights(int octaves) {
+  float weight = 1.0f, total = 0.0f;
+  for (int octave = 0; octave < octaves; ++octave, weight *= 0.5f) total += weight;
+  return total;
+}
+
+// Octaves of plain noise. Their gradients are added before they are bounded: those of different octaves
+// cancel.
+template <bool has_time, class V>
+TYNDALL_VM_INLINE Bound<V> fbm_over_box(const Options& options, int octaves, FieldBox<V, has_time> box) {
+  constexpr NoiseConstants constants = has_time ? noise_constants4 : noise_constants3;
+  const V zero(0.0f);
+  const auto nan = may_be_nan(box);
+  const V radius_x = ball_of(box.x).radius, radius_y = ball_of(box.y).radius,
+          radius_z = ball_of(box.z).radius, radius_t = ball_of(box.t).radius;
+  Slopes<V> sum{zero, zero, zero, zero, zero};
+  V rest = zero;
+  float weight = 1.0f, frequency = 1.0f;
+  for (int octave = 0; octave < octaves; ++octave) {
+    const auto n = noise_over_box(box, seed_key(options.seed, static_cast<std::uint32_t>(octave)));
+    const V share = select(n.linear, V(weight * frequency), zero), half(0.5f * weight);
+    sum.value = sum.value + select(n.linear, n.slopes.value * V(weight), (n.lo + n.hi) * half);
+    rest = rest + select(n.linear, n.rest * V(weight), (n.hi - n.lo) * half);
+    if (any(n.linear)) {
+      sum.x = sum.x + select(n.linear, n.slopes.x * share, zero);
+      sum.y = sum.y + select(n.linear, n.slopes.y * share, zero);
+      sum.z = sum.z + select(n.linear, n.slopes.z * share, zero);
+      if constexpr (has_time) sum.t = sum.t + select(n.linear, n.slopes.t * share, zero);
+    }
+    weight *= 0.5f;
+    frequency *= 2.0f;
+    box = next_octave(box);
+  }
+  V reach = abs(sum.x) * radius_x + abs(sum.y) * radius_y + abs(sum.z) * radius_z;
+  if constexpr (has_time) reach = reach + abs(sum.t) * radius_t;
+  const V scale(1.0f / sum_of_weights(octaves));
+  const V half = (select(reach < V(endless), reach, V(endless)) + rest) * scale + V(noise_rounding);
+  const V most(constants.supremum + noise_rounding), middle = sum.value * scale;
+  return {greater(-most, middle - half), lesser(most, middle + half), either(nan, overflows(box))};
+}
+
+// Octaves of a shape of noise: each octave's bounds, through the shape.
+template <bool has_time, class V, class Shape>
+TYNDALL_VM_INLINE Bound<V> shapes_over_box(const Options& options, const Shape& shape,
+                                           FieldBox<V, has_time> box) {
+  const auto nan = may_be_nan(box);
+  V lo(0.0f), hi(0.0f);
+  float weight = 1.0f;
+  for (int octave = 0; octave < options.octaves; ++octave) {
+    const auto n = noise_over_box(box, seed_key(options.seed, static_cast<std::uint32_t>(octave)));
+    const Bound<V> size = size_of(Bound<V>{n.lo, n.hi, nan});
+    // Both shapes are monotone in |noise| up to 1, and the ridge rises again from 1 to the supremum.
+    const V one(1.0f), least = lesser(shape(lesser(one, size.lo)), shape(lesser(one, size.hi)));
+    lo = lo + least * V(weight);
+    hi = hi + greater(shape(size.lo), shape(size.hi)) * V(weight);
+    weight *= 0.5f;
+    box = next_octave(box);
+  }
+  const V scale(1.0f / sum_of_weights(options.octaves)), slack(noise_rounding);
+  return {lo * scale - slack, hi * scale + slack, either(nan, overflows(box))};
+}
+// (a - mean) * factor, widened by its rounding.
+template <class V>
+TYNDALL_VM_INLINE Bound<V> centered(Bound<V> a, float mean, float factor) {
+  return {(a.lo - V(mean)) * V(factor) - V(noise_rounding), (a.hi - V(mean)) * V(factor) + V(noise_rounding),
+          a.nan};
+}
+
+#define TYNDALL_VM_SPACE \
+  FieldBox<V, false> { a, b, c, a }
+#define TYNDALL_VM_SPACE_AND_TIME \
+  FieldBox<V, true> { a, b, c, d }
+TYNDALL_VM_BOUND3(noise3) { return fbm_over_box(options, 1, TYNDALL_VM_SPACE); }
+TYNDALL_VM_BOUND4(noise4) { return fbm_over_box(options, 1, TYNDALL_VM_SPACE_AND_TIME); }
+TYNDALL_VM_BOUND3(fbm3) { return fbm_over_box(options, options.octaves, TYNDALL_VM_SPACE); }
+TYNDALL_VM_BOUND4(fbm4) { return fbm_over_box(options, options.octaves, TYNDALL_VM_SPACE_AND_TIME); }
+TYNDALL_VM_BOUND3(turbulence3) {
+  return centered(shapes_over_box(options, AbsoluteShape(), TYNDALL_VM_SPACE), mean_absolute3,
+                  1 / (1 - mean_absolute3));
+}
+TYNDALL_VM_BOUND4(turbulence4) {
+  return centered(shapes_over_box(options, AbsoluteShape(), TYNDALL_VM_SPACE_AND_TIME), mean_absolute4,
+                  1 / (1 - mean_absolute4));
+}
+TYNDALL_VM_BOUND3(ridged3) {
+  return centered(shapes_over_box(options, RidgeShape(), TYNDALL_VM_SPACE), mean_ridge3, 1 / mean_ridge3);
+}
+TYNDALL_VM_BOUND4(ridged4) {
+  return centered(shapes_over_box(options, RidgeShape(), TYNDALL_VM_SPACE_AND_TIME), mean_ridge4,
+                  1 / mean_ridge4);
+}
+
+// A distance changes by at most as much as the place: the one at the middle, and the box's half diagonal.
+template <class V>
+TYNDALL_VM_INLINE Bound<V> distance_over_box(V at_middle, V diagonal, V size, float mean, MaskOf<V> nan) {
+  const V middle = at_middle * V(mean) + V(mean);  // undoes op_cells' scaling
+  const V half = diagonal * V(1.0f + kernel_error) + V(noise_rounding) + size * V(0x1p-21f);
+  const auto known = both(half < V(1.0f), size < V(lattice_limit));
+  const V lo = select(known, greater(V(0.0f), middle - half), V(0.0f));
+  const V hi = select(known, lesser(V(1.0f), middle + half), V(1.0f));
+  return centered(Bound<V>{lo, hi, nan}, mean, 1 / mean);
+}
+TYNDALL_VM_BOUND3(cells3) {
+  const Ball<V> x = ball_of(a), y = ball_of(b), z = ball_of(c);
+  const V size = greater(greater(largest_size(a), largest_size(b)), largest_size(c));
+  return distance_over_box(op_cells3(options, x.center, y.center, z.center),
+                           op_length3(options, x.radius, y.radius, z.radius), size, mean_distance3,
+                           may_be_nan(TYNDALL_VM_SPACE));
+}
+TYNDALL_VM_BOUND4(cells4) {
+  const Ball<V> x = ball_of(a), y = ball_of(b), z = ball_of(c), t = ball_of(d);
+  const V size =
+      greater(greater(largest_size(a), largest_size(b)), greater(largest_size(c), largest_size(d)));
+  return distance_over_box(op_cells4(options, x.center, y.center, z.center, t.center),
+                           op_length2(options, op_length3(options, x.radius, y.radius, z.radius), t.radius),
+                           size, mean_distance4, may_be_nan(TYNDALL_VM_SPACE_AND_TIME));
+}
+
+// A component of curl is the difference of two slopes: each changes by at most one row of curvatures times
+// the half width, and is never steeper than the steepest slope.
+template <bool has_time, class V>
+TYNDALL_VM_INLINE Bound<V> slopes_over_box(V at_middle, const FieldBox<V, has_time>& box) {
+  constexpr NoiseConstants constants = has_time ? noise_constants4 : noise_constants3;
+  V radius = greater(greater(ball_of(box.x).radius, ball_of(box.y).radius), ball_of(box.z).radius);
+  V size = greater(greater(largest_size(box.x), largest_size(box.y)), largest_size(box.z));
+  if constexpr (has_time) {
+    radius = greater(radius, ball_of(box.t).radius);
+    size = greater(size, largest_size(box.t));
+  }
+  const V most(2 * curl_scale * constants.slope + slope_rounding);
+  const V half = V(2 * curl_scale * constants.curvature_row) * radius + V(slope_rounding);
+  const auto known = both(half < most, size < V(lattice_limit));
+  return {select(known, greater(-most, at_middle - half), -most),
+          select(known, lesser(most, at_middle + half), most), may_be_nan(box)};
+}
+TYNDALL_VM_BOUND3(curl3_x) {
+  return slopes_over_box(op_curl3_x(options, ball_of(a).center, ball_of(b).center, ball_of(c).center),
+                         TYNDALL_VM_SPACE);
+}
+TYNDALL_VM_BOUND3(curl3_y) {
+  return slopes_over_box(op_curl3_y(options, ball_of(a).center, ball_of(b).center, ball_of(c).center),
+                         TYNDALL_VM_SPACE);
+}
+TYNDALL_VM_BOUND3(curl3_z) {
+  return slopes_over_box(op_curl3_z(options, ball_of(a).center, ball_of(b).center, ball_of(c).center),
+                         TYNDALL_VM_SPACE);
+}
+#define TYNDALL_VM_MIDDLE4 ball_of(a).center, ball_of(b).center, ball_of(c).center, ball_of(d).center
+TYNDALL_VM_BOUND4(curl4_x) {
+  return slopes_over_box(op_curl4_x(options, TYNDALL_VM_MIDDLE4), TYNDALL_VM_SPACE_AND_TIME);
+}
+TYNDALL_VM_BOUND4(curl4_y) {
+  return slopes_over_box(op_curl4_y(options, TYNDALL_VM_MIDDLE4), TYNDALL_VM_SPACE_AND_TIME);
+}
+TYNDALL_VM_BOUND4(curl4_z) {
+  return slopes_over_box(op_curl4_z(options, TYNDALL_VM_MIDDLE4), TYNDALL_VM_SPACE_AND_TIME);
+}
+#undef TYNDALL_VM_MIDDLE4
+#undef TYNDALL_VM_SPACE_AND_TIME
+#undef TYNDALL_VM_SPACE
+
+}  // namespace tyndall::vm::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
