@@ -137,7 +137,7 @@ class PathTracer {
   }
 
   void trace_shadows() {
-    for (const ShadowRay& ray : worker_.shadows.trace(world_, worker_)) {
+    for (const ShadowRay& ray : worker_.shadows.trace(world_, settings_.transmittance, worker_)) {
       radiance_[ray.sample] += ray.contribution;
       if (trace_ && !is_black(ray.contribution))
         say("  + ({:.6g}, {:.6g}, {:.6g}) direct light\n", ray.contribution.x, ray.contribution.y,
@@ -347,6 +347,7 @@ PathSettings path_settings(const CompiledScene& world, const RenderOptions& opti
   const compile::Features& f = world.features;
   PathSettings settings;
   settings.distance = options.distance;
+  settings.transmittance = options.transmittance;
   settings.light_samples = world.scene.settings.light_samples;
   settings.bounces = world.scene.settings.bounces;
   settings.gathers_after_last =

@@ -15,6 +15,7 @@ namespace tyndall::render {
 // What every sample of a render shares.
 struct PathSettings {
   Distance distance = Distance::mis;
+  Transmittance transmittance = Transmittance::march;
   int light_samples = 1;
   int bounces = 0;
   // Rays after the last bounce are traced only when they could meet light that is not sampled directly, or

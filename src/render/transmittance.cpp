@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/numerics.h"
+#include "render/estimators.h"
 #include "render/medium_lanes.h"
 #include "render/worker.h"
 
@@ -19,44 +20,91 @@ std::uint32_t segments_for(double length, double step, Worker& worker) {
   return max_segments;
 }
 
+// Each march of one ray has its own jitter; the first has the ray's.
+std::uint32_t march_seed(std::uint32_t seed, std::uint32_t march) {
+  return march == 0 ? seed : static_cast<std::uint32_t>(hash_bits(seed, march) >> 32);
+}
+
 }  // namespace
 
-std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& world, Worker& worker) {
-  depth_.assign(rays_.size(), Vec3d{});
+std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& world, Transmittance method,
+                                              Worker& worker) {
+  closed_.assign(rays_.size(), Vec3d{});
+  estimates_.assign(rays_.size(), {0, 0});
+  depth_.clear();
   stays_.clear();
   for (std::uint32_t r = 0; r < rays_.size(); ++r) {
     ++worker.statistics.shadow_rays;
     if (world.occluded(rays_[r].ray, rays_[r].target_light))
       rays_[r].contribution = {};
     else if (world.features.volumes)
-      collect_stays(world, r, worker);
+      collect_stays(world, r, method, worker);
   }
   march_stays(world, worker);
 
-  for (std::size_t r = 0; r < rays_.size(); ++r) {
-    const Vec3d& tau = depth_[r];
-    if (tau.x == tau.y && tau.y == tau.z)
-      rays_[r].contribution *= static_cast<float>(std::exp(-tau.x));
-    else
-      rays_[r].contribution *= Rgb(Vec3d{std::exp(-tau.x), std::exp(-tau.y), std::exp(-tau.z)});
+  const bool grey = !world.features.chromatic_extinction;
+  for (std::uint32_t r = 0; r < rays_.size(); ++r) {
+    Vec3d t;
+    for (std::size_t c = 0; c < 3; ++c) t[c] = c > 0 && grey ? t[0] : transmittance(r, c, method);
+    rays_[r].contribution *= Rgb(t);
   }
   return rays_;
 }
 
 // Closed forms at once; the rest is kept for the march.
-void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32_t ray, Worker& worker) {
+void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32_t ray, Transmittance method,
+                                Worker& worker) {
   world.volume_intervals(rays_[ray].ray, compile::RayKind::shadow, intervals_);
   for (const compile::VolumeInterval& i : intervals_) {
     const compile::CompiledVolume& volume = world.volumes[i.volume];
     const compile::CompiledMedium& medium = world.media[volume.medium];
     const double length = i.t1 - i.t0;
     if (medium.constant_sigma_t) {
-      depth_[ray] += Vec3d(*medium.constant_sigma_t) * length;
+      closed_[ray] += Vec3d(*medium.constant_sigma_t) * length;
       continue;
     }
-    const std::uint32_t n = medium.homogeneous ? 1 : segments_for(length, volume.step, worker);
-    stays_.push_back({volume.medium, i.volume, ray, n, i.t0, length / n});
+    if (estimates_[ray].count == 0) lay_estimates(ray, method);
+    const Estimates& e = estimates_[ray];
+    std::uint32_t n = medium.homogeneous ? 1 : segments_for(length, volume.step, worker);
+    if (method == Transmittance::jackknife) n = (n + 1) / 2;  // of two marches: as many in all
+    for (std::uint32_t march = e.first; march < e.first + e.count; ++march)
+      stays_.push_back({volume.medium, i.volume, ray, march, n, i.t0, length / n});
   }
+}
+
+// How many marches of its own a ray gets.
+void ShadowBatch::lay_estimates(std::uint32_t ray, Transmittance method) {
+  Estimates& e = estimates_[ray];
+  e.first = static_cast<std::uint32_t>(depth_.size());
+  switch (method) {
+    case Transmittance::march:
+      e.count = 1;
+      break;
+    case Transmittance::jackknife:
+      e.count = 2;
+      break;
+    case Transmittance::series:
+      e.count = 1 + series_order(rays_[ray].seed);
+      break;
+  }
+  depth_.resize(depth_.size() + e.count);
+}
+
+double ShadowBatch::transmittance(std::uint32_t ray, std::size_t c, Transmittance method) {
+  const Estimates& e = estimates_[ray];
+  const double closed = std::exp(-closed_[ray][c]);
+  if (e.count == 0) return closed;
+  one_channel_.clear();
+  for (std::uint32_t k = 0; k < e.count; ++k) one_channel_.push_back(depth_[e.first + k][c]);
+  switch (method) {
+    case Transmittance::march:
+      return closed * std::exp(-one_channel_[0]);
+    case Transmittance::jackknife:
+      return closed * jackknife(one_channel_[0], one_channel_[1]);
+    case Transmittance::series:
+      return closed * power_series(one_channel_);
+  }
+  return closed;
 }
 
 // Runs the extinction programs medium by medium, over all rays' segments.
@@ -75,7 +123,7 @@ void ShadowBatch::march_stays(const compile::CompiledScene& world, Worker& worke
     lanes.reserve(count);
     std::size_t lane = 0;
     for (auto s = first; s != last; lane += s->count, ++s) {
-      const std::uint32_t seed = rays_[s->ray].seed;
+      const std::uint32_t seed = march_seed(rays_[s->ray].seed, s->march - estimates_[s->ray].first);
       lanes.set(world.volumes[s->volume], rays_[s->ray].ray, lane, s->count, [&](std::size_t k) {
         return s->t0 + (static_cast<double>(k) + jitter(seed, static_cast<std::uint32_t>(k))) * s->dt;
       });
@@ -103,7 +151,7 @@ void ShadowBatch::march_stays(const compile::CompiledScene& world, Worker& worke
           for (std::uint32_t k = 0; k < s->count; ++k) tau[c] += worker.outputs[output][lane + k];
           tau[c] *= s->dt;
         }
-        depth_[s->ray][c] += tau[c];
+        depth_[s->march][c] += tau[c];
       }
     first = last;
   }

@@ -1,5 +1,5 @@
-// Transmittance towards lights: closed form where the medium is homogeneous, a march where not; the lanes of
-// several shadow rays fill one batch.
+// Transmittance towards lights: closed form where the medium is homogeneous; where not, by one of the
+// estimators of `--transmittance`, the lanes of several shadow rays in one batch.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compile/compiled_scene.h"
+#include "render/render.h"
 
 namespace tyndall::render {
 
@@ -29,25 +30,36 @@ class ShadowBatch {
     rays_.push_back(ray);
     rays_.back().sample = sample_;
   }
-  // Leaves in each ray's contribution what arrives: times visibility and transmittance.
-  std::span<const ShadowRay> trace(const compile::CompiledScene& world, Worker& worker);
+  // Leaves in each ray's contribution what arrives: times visibility and transmittance, which an unbiased
+  // estimator may make negative.
+  std::span<const ShadowRay> trace(const compile::CompiledScene& world, Transmittance method, Worker& worker);
   void clear() { rays_.clear(); }
 
  private:
-  // A ray's stay in a volume that must be marched: `count` segments from t0 of length dt.
+  // Estimates of one ray's optical depth: `count` independent marches, in rows of depth_ from `first`.
+  struct Estimates {
+    std::uint32_t first = 0, count = 1;
+  };
+  // One march's stay in a volume: `count` segments from t0 of length dt.
   struct Stay {
-    std::uint32_t medium, volume, ray, count;
+    std::uint32_t medium, volume, ray, march, count;
     double t0, dt;
   };
-  void collect_stays(const compile::CompiledScene& world, std::uint32_t ray, Worker& worker);
+  void lay_estimates(std::uint32_t ray, Transmittance method);
+  void collect_stays(const compile::CompiledScene& world, std::uint32_t ray, Transmittance method,
+                     Worker& worker);
   void march_stays(const compile::CompiledScene& world, Worker& worker);
+  double transmittance(std::uint32_t ray, std::size_t channel, Transmittance method);
 
   std::uint32_t sample_ = 0;
   std::vector<ShadowRay> rays_;
-  std::vector<Vec3d> depth_;  // optical depth per ray and channel
+  std::vector<Estimates> estimates_;  // per ray
+  std::vector<Vec3d> closed_;         // optical depth known in closed form, per ray
+  std::vector<Vec3d> depth_;          // estimated optical depth, per march
   std::vector<compile::VolumeInterval> intervals_;
   std::vector<Stay> stays_;
   std::vector<float> values_;
+  std::vector<double> one_channel_;
 };
 
 }  // namespace tyndall::render

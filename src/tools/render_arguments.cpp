@@ -25,12 +25,6 @@ const CLI::Validator not_below_zero(
     },
     "");
 
-constexpr std::pair<std::string_view, render::Distance> distances[] = {
-    {"mis", render::Distance::mis},
-    {"density", render::Distance::density},
-    {"equiangular", render::Distance::equiangular},
-};
-
 // Whole numbers with the separators between them and nothing else: "640x360" with "x", "0,0,8,8" with ",".
 bool read_numbers(std::string_view text, std::string_view separator, std::span<int> numbers) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -114,17 +108,32 @@ void add_quality_options(CLI::App& command, RenderArguments& arguments) {
           },
           "Render the samples A to B, both included, of each pixel")
       ->option_text("A..B");
+}
+
+// An option whose value is one of a table's names.
+template <class Method, std::size_t count>
+void add_choice(CLI::App& command, const std::string& option, const Choice<Method> (&table)[count],
+                Method& method, const std::string& help) {
   command
       .add_option_function<std::string>(
-          "--distance",
-          [&arguments](const std::string& text) {
-            const auto* found = std::find_if(std::begin(distances), std::end(distances),
-                                             [&text](const auto& entry) { return entry.first == text; });
-            if (found == std::end(distances)) refuse("--distance", "mis, density or equiangular", text);
-            arguments.distance = found->second;
+          option,
+          [option, &table, &method](const std::string& text) {
+            for (const auto& [name, entry] : table)
+              if (name == text) {
+                method = entry;
+                return;
+              }
+            refuse(option, "one of " + names_of(table, ", "), text);
           },
-          "For experts: how distances for direct light are drawn (default: mis)")
-      ->option_text("mis|density|equiangular");
+          fmt::format("For experts: {} (default: {})", help, name_in(table, method)))
+      ->option_text(names_of(table, "|"));
+}
+
+void add_method_options(CLI::App& command, RenderArguments& arguments) {
+  add_choice(command, "--distance", distances, arguments.distance,
+             "how distances for direct light are drawn");
+  add_choice(command, "--transmittance", transmittances, arguments.transmittance,
+             "how much of a light arrives through what has no closed form");
 }
 
 void add_running_options(CLI::App& command, RenderArguments& arguments) {
@@ -177,6 +186,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
   add_scene_options(command, arguments.scene);
   add_picture_options(command, arguments);
   add_quality_options(command, arguments);
+  add_method_options(command, arguments);
   add_running_options(command, arguments);
 }
 
@@ -190,12 +200,6 @@ void apply_settings(const RenderArguments& arguments, scene::RenderSettings& set
   settings.light_samples = arguments.light_samples.value_or(settings.light_samples);
   settings.bounces = arguments.bounces.value_or(settings.bounces);
   settings.seed = arguments.seed.value_or(settings.seed);
-}
-
-std::string_view name(render::Distance distance) {
-  return std::find_if(std::begin(distances), std::end(distances),
-                      [distance](const auto& entry) { return entry.second == distance; })
-      ->first;
 }
 
 std::string replay_command(const RenderArguments& arguments, int x, int y, std::uint64_t sample) {
@@ -215,8 +219,11 @@ std::string replay_command(const RenderArguments& arguments, int x, int y, std::
   add("--light-samples", arguments.light_samples);
   add("--bounces", arguments.bounces);
   add("--seed", arguments.seed);
-  if (arguments.distance != render::Distance::mis)
+  const RenderArguments defaults;
+  if (arguments.distance != defaults.distance)
     command += fmt::format(" --distance {}", name(arguments.distance));
+  if (arguments.transmittance != defaults.transmittance)
+    command += fmt::format(" --transmittance {}", name(arguments.transmittance));
   return command + fmt::format(" --pixel {},{} --sample {}", x, y, sample);
 }
 

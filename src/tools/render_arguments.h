@@ -6,6 +6,7 @@
 #include <string>
 
 #include "render/render.h"
+#include "tools/choices.h"
 #include "tools/load.h"
 
 namespace tyndall::tools {
@@ -25,7 +26,8 @@ struct RenderArguments {
   std::optional<std::uint64_t> seed, sample;
   std::optional<SampleRange> sample_range;
   int threads = 0;
-  render::Distance distance = render::Distance::mis;
+  render::Distance distance = render::RenderOptions{}.distance;
+  render::Transmittance transmittance = render::RenderOptions{}.transmittance;
   bool strict = false, quiet = false, json = false;
 };
 
@@ -35,8 +37,6 @@ void add_render_options(CLI::App& command, RenderArguments& arguments);
 
 // The scene's settings with those of the command line in their place.
 void apply_settings(const RenderArguments& arguments, scene::RenderSettings& settings);
-
-std::string_view name(render::Distance distance);
 
 // The command that renders one sample again and tells what happens on its path, with all options that change
 // it.

@@ -67,6 +67,7 @@ render::RenderOptions options_of(const RenderArguments& arguments) {
   render::RenderOptions options;
   options.threads = arguments.threads;
   options.distance = arguments.distance;
+  options.transmittance = arguments.transmittance;
   options.crop = arguments.crop;
   if (arguments.sample_range) {
     options.first_sample = arguments.sample_range->first;

@@ -51,8 +51,9 @@ image::Metadata metadata_of(const RenderArguments& arguments, const scene::Scene
                             const std::string& scene_hash, const render::Statistics& statistics) {
   const SampleRange samples = samples_of(arguments, scene);
   std::string settings =
-      fmt::format("step={} light_samples={} bounces={} distance={}", scene.settings.step,
-                  scene.settings.light_samples, scene.settings.bounces, name(arguments.distance));
+      fmt::format("step={} light_samples={} bounces={} distance={} transmittance={}", scene.settings.step,
+                  scene.settings.light_samples, scene.settings.bounces, name(arguments.distance),
+                  name(arguments.transmittance));
   if (arguments.crop) {
     const auto& crop = *arguments.crop;
     settings += fmt::format(" crop={},{},{},{}", crop.x0, crop.y0, crop.x1, crop.y1);

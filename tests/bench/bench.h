@@ -7,6 +7,9 @@ namespace tyndall {
 // when a scene cannot be read.
 bool bench_scenes(double seconds);
 
+// The estimators of transmittance on known densities: bias and error at each cost.
+void bench_transmittance();
+
 }  // namespace tyndall
 
 namespace tyndall::vm {

@@ -75,8 +75,8 @@ TEST_F(Render, ThreadsDoNotChangeAByte) {
 TEST_F(Render, OptionsTakeThePlaceOfSettings) {
   const std::string scene = file("a.tyn", small_scene());
   ASSERT_EQ(tyndall({"render", scene, "-o", path("a.png"), "--resolution", "9x7", "--samples", "1",
-                     "--bounces", "0", "--light-samples", "2", "--distance", "equiangular", "--stats",
-                     path("a.json"), "--quiet"})
+                     "--bounces", "0", "--light-samples", "2", "--distance", "equiangular", "--transmittance",
+                     "jackknife", "--stats", path("a.json"), "--quiet"})
                 .status,
             0);
   EXPECT_EQ(picture(path("a.png")).width, 9);

@@ -27,6 +27,7 @@ inline Expression operator*(const Expression& a, float b) { return a * a.like(b)
 inline Expression operator-(float a, const Expression& b) { return b.like(a) - b; }
 inline Expression exp(const Expression& a) { return a.apply(vm::Op::exp); }
 inline Expression cos(const Expression& a) { return a.apply(vm::Op::cos); }
+inline Expression abs(const Expression& a) { return a.apply(vm::Op::abs); }
 inline Expression floor(const Expression& a) { return a.apply(vm::Op::floor); }
 inline Expression fract(const Expression& a) { return a.apply(vm::Op::fract); }
 inline Expression max(const Expression& a, float b) { return a.apply(vm::Op::max, a.like(b)); }
