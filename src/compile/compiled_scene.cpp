@@ -6,6 +6,8 @@
 #include "base/check.h"
 #include "base/overloaded.h"
 #include "compile/geometry.h"
+#include "compile/majorant_grid.h"
+#include "compile/volume_grids.h"
 
 namespace tyndall::compile {
 
@@ -129,6 +131,7 @@ CompiledScene compile(scene::Scene scene) {
 
   world.features = features_of(world);
   world.geometry = std::make_unique<Geometry>(world.scene, world.origin, world.lights, world.volumes);
+  add_grids(world);
   return world;
 }
 

@@ -65,11 +65,13 @@ struct CompiledVolume {
   Transform shape_from_render, render_from_shape;  // of the bounding shape
   Transform medium_from_render;                    // render space to the medium's p
   double step = 0;                                 // [m]
+  std::uint32_t grid = no_index;                   // index of grids when the medium varies in space
   scene::Shape shape;
   bool visible = true;
 };
 
-class Geometry;  // Embree, behind geometry.cpp
+class Geometry;      // Embree, behind geometry.cpp
+class MajorantGrid;  // majorant_grid.h
 
 class CompiledScene {
  public:
@@ -83,6 +85,7 @@ class CompiledScene {
   std::vector<CompiledVolume> volumes;
   std::vector<optics::Light> lights;  // scene.lights, moved to render space
   std::unique_ptr<Geometry> geometry;
+  std::vector<std::unique_ptr<MajorantGrid>> grids;  // of volumes whose medium varies; see grid_walk.h
 
   // The nearest surface (opaque shape or visible area light) in (t_min, ray.t_max), if any.
   std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind) const;

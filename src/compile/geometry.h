@@ -21,6 +21,8 @@ class Geometry {
 
   std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind) const;
   bool occluded(const Ray& ray, std::uint32_t target_light) const;
+  // Of a shape in its own space, meshes too; nothing when it is infinite.
+  std::optional<Bounds> bounds_of(const scene::Shape& shape) const { return bounds(shape, meshes_); }
   void volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const;
 
  private:

@@ -1,0 +1,114 @@
+// Proven bounds of a medium's coefficients over the cells of a grid: empty space, uniform regions, majorants
+// and minorants of extinction without any number from the user.
+//
+// The bounds come from the medium's own program run on intervals (vm/interval.h), so they hold for whatever
+// the program gives at any point of the cell and any time of the grid's interval, after the renderer's
+// clamping (negative and NaN to 0, at most largest_coefficient). Cells are made brick by brick, where rays
+// come first; a brick is a pure function of its place, so it does not matter which ray or thread was first.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/interval.h"
+#include "base/transform.h"
+#include "base/vec.h"
+#include "compile/shape_queries.h"
+#include "scene/medium.h"
+#include "vm/interval.h"
+
+namespace tyndall::compile {
+
+// Shaders give no more than this; larger values are taken for infinite.
+inline constexpr float largest_coefficient = 1e30f;
+
+// What is proven about a cell. Empty: extinction, scattering and emission are all exactly 0, and no value is
+// bad. Uniform: every output of the program is one value to rounding.
+enum class CellKind : std::uint8_t { empty, uniform, varying };
+
+// Bounds of extinction [1/m of world space], over all channels; `spread` is the largest difference in one
+// channel.
+struct CellBounds {
+  float minorant = 0, majorant = 0, spread = 0;
+  CellKind kind = CellKind::varying;
+};
+
+// One thread's scratch for making cells.
+struct BoundsScratch {
+  vm::IntervalMachine machine;
+  std::array<std::vector<float>, 6> p, world;  // lowest x y z, highest x y z
+  std::vector<vm::ValueBounds> values;
+  std::vector<std::uint32_t> loose;
+};
+
+class MajorantGrid {
+ public:
+  // Where a grid holds. Two volumes with the same medium and an equal domain share one.
+  struct Domain {
+    Bounds box;                                  // in the medium's space p
+    std::optional<Transform> world_from_medium;  // set when the program reads P
+    Interval<float> time;                        // both ends included: one slab of the shutter, or one moment
+    std::uint32_t cells = 0;                     // at most, over the whole box
+  };
+
+  // Keeps a reference to the medium. Makes no cells yet.
+  MajorantGrid(const scene::Medium& medium, const Domain& domain);
+  ~MajorantGrid();
+  MajorantGrid(const MajorantGrid&) = delete;
+  MajorantGrid& operator=(const MajorantGrid&) = delete;
+
+  static constexpr std::uint32_t brick_side = 8, brick_cells = brick_side * brick_side * brick_side;
+  static constexpr std::size_t bytes_per_cell = sizeof(float) * 3 + 1;
+
+  // What a brick is as a whole; its cells are there only where the whole says too little.
+  struct Brick {
+    CellBounds whole;
+    struct Cells {
+      std::array<float, brick_cells> minorant, majorant, spread;
+      std::array<CellKind, brick_cells> kind;
+    };
+    std::unique_ptr<Cells> cells;
+
+    CellBounds cell(std::uint32_t i) const {
+      if (!cells) return whole;
+      return {cells->minorant[i], cells->majorant[i], cells->spread[i], cells->kind[i]};
+    }
+  };
+
+  const Domain& domain() const { return domain_; }
+  // Bricks along each axis; cells are brick_side times as many.
+  const std::array<std::uint32_t, 3>& bricks() const { return bricks_; }
+  std::uint32_t brick_count() const { return bricks_[0] * bricks_[1] * bricks_[2]; }
+  Vec3d cell_size() const { return cell_size_; }
+
+  // The brick at these coordinates, made now when no one has been there. Any thread, any time.
+  const Brick& brick(std::uint32_t x, std::uint32_t y, std::uint32_t z, BoundsScratch& scratch) const {
+    const std::size_t i = (std::size_t{z} * bricks_[1] + y) * bricks_[0] + x;
+    const Brick* known = made_[i].load(std::memory_order_acquire);
+    return known ? *known : make(i, {x, y, z}, scratch);
+  }
+  // The cell that holds p, which is moved into the box when it lies outside.
+  CellBounds at(const Vec3d& p, BoundsScratch& scratch) const;
+
+ private:
+  const Brick& make(std::size_t index, const std::array<std::uint32_t, 3>& at, BoundsScratch& scratch) const;
+  std::unique_ptr<Brick> computed(const std::array<std::uint32_t, 3>& at, BoundsScratch& scratch) const;
+  void evaluate(std::size_t boxes, BoundsScratch& scratch) const;
+  void refine(Brick::Cells& cells, BoundsScratch& scratch) const;
+  void add_box(const Vec3d& lo, const Vec3d& hi, BoundsScratch& scratch) const;
+  CellBounds summary(std::size_t first, std::size_t count, std::size_t boxes,
+                     const BoundsScratch& scratch) const;
+
+  const scene::Medium& medium_;
+  Domain domain_;
+  std::array<std::uint32_t, 3> bricks_{};
+  Vec3d cell_size_;
+  std::vector<std::uint8_t> coefficients_;  // outputs that are not negative: extinction, scattering, emission
+  mutable std::vector<std::atomic<Brick*>> made_;
+};
+
+}  // namespace tyndall::compile

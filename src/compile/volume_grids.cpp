@@ -1,0 +1,107 @@
+#include "compile/volume_grids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/check.h"
+#include "base/numerics.h"
+#include "base/overloaded.h"
+#include "compile/geometry.h"
+#include "compile/majorant_grid.h"
+
+namespace tyndall::compile {
+
+namespace {
+
+bool reads_world(const vm::Program& program) {
+  return std::any_of(program.inputs.begin(), program.inputs.end(),
+                     [](vm::Input input) { return vm::Input::P_x <= input && input <= vm::Input::P_z; });
+}
+
+// The box moved outward to a lattice of 2^-20 of its size: instances of one prototype, whose transforms round
+// differently, have the same.
+Bounds snapped(const Bounds& b) {
+  const Vec3d extent = b.hi - b.lo;
+  const double size = std::max({extent.x, extent.y, extent.z});
+  if (!(size > 0)) return b;
+  const double unit = std::exp2(std::floor(std::log2(size) + 0.3) - 20);
+  Bounds out;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    out.lo[axis] = (std::floor(b.lo[axis] / unit + 0.25) - 1) * unit;
+    out.hi[axis] = (std::ceil(b.hi[axis] / unit - 0.25) + 1) * unit;
+  }
+  return out;
+}
+
+// Pixels across which the volume appears to the camera from outside; infinite from inside or when it cannot
+// be told.
+double pixels_across(const CompiledScene& world, const CompiledVolume& volume, const Bounds& shape) {
+  const Bounds box = placed_bounds(shape, volume.render_from_shape);
+  const Vec3d center = (box.lo + box.hi) * 0.5;
+  const double radius = length(box.hi - box.lo) * 0.5, distance = length(center) - radius;  // camera at 0
+  const double height = world.scene.settings.height;
+  return std::visit(
+      Overloaded{[&](const scene::PerspectiveCamera& c) {
+                   return distance > 0 ? radius * height / (distance * std::tan(c.fov.radians / 2))
+                                       : infinity;
+                 },
+                 [&](const scene::OrthographicCamera& c) { return 2 * radius * height / c.height; },
+                 [&](const scene::SphericalCamera&) {
+                   return distance > 0 ? 2 * std::atan2(radius, distance) * height / pi : infinity;
+                 }},
+      world.scene.camera);
+}
+
+// Half as fine as pixels is fine enough: bounds are for steps and majorants, not for looks.
+std::uint32_t cells_for(double pixels) {
+  const double along = std::clamp(pixels / 2, 8.0, 64.0);
+  return static_cast<std::uint32_t>(along * along * along);
+}
+
+}  // namespace
+
+void add_grids(CompiledScene& world) {
+  // Medium, the box's six ends, and of a program that reads the world's position the volume too.
+  using Key = std::array<double, 8>;
+  std::map<Key, std::uint32_t> known;
+  std::vector<MajorantGrid::Domain> domains;
+  std::vector<std::uint32_t> media;
+  const auto time = static_cast<float>(world.scene.time);
+  for (std::uint32_t v = 0; v < world.volumes.size(); ++v) {
+    CompiledVolume& volume = world.volumes[v];
+    if (world.media[volume.medium].homogeneous) continue;
+    const std::optional<Bounds> shape = world.geometry->bounds_of(volume.shape);
+    if (!shape) continue;
+    MajorantGrid::Domain domain;
+    domain.box = snapped(placed_bounds(*shape, volume.medium_from_render * volume.render_from_shape));
+    domain.time = {time, time};
+    const bool in_world = reads_world(world.scene.media[volume.medium].full);
+    if (in_world) {
+      const auto render_from_medium = volume.medium_from_render.inverse();
+      CHECK(render_from_medium.has_value());
+      domain.world_from_medium = Transform::translate(world.origin) * *render_from_medium;
+    }
+    domain.cells = cells_for(pixels_across(world, volume, *shape));
+    const Bounds& b = domain.box;
+    const Key key = {static_cast<double>(volume.medium),       b.lo.x, b.lo.y, b.lo.z, b.hi.x, b.hi.y, b.hi.z,
+                     in_world ? static_cast<double>(v) + 1 : 0};
+    const auto [found, added] = known.emplace(key, static_cast<std::uint32_t>(domains.size()));
+    volume.grid = found->second;
+    if (added) {
+      domains.push_back(domain);
+      media.push_back(volume.medium);
+    } else {
+      domains[found->second].cells = std::max(domains[found->second].cells, domain.cells);
+    }
+  }
+  const std::size_t share =
+      domains.empty() ? 0 : max_grid_bytes / domains.size() / MajorantGrid::bytes_per_cell;
+  const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(share, max_grid_cells));
+  for (std::size_t i = 0; i < domains.size(); ++i) {
+    domains[i].cells = std::min(domains[i].cells, most);
+    world.grids.push_back(std::make_unique<MajorantGrid>(world.scene.media[media[i]], domains[i]));
+  }
+}
+
+}  // namespace tyndall::compile

@@ -1,0 +1,228 @@
+// Majorant grids: sound bounds whatever ray or thread comes first, along rays without gaps, in bounded
+// memory.
+#include "compile/majorant_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <thread>
+
+#include "base/numerics.h"
+#include "compile/compiled_scene.h"
+#include "compile/grid_walk.h"
+#include "support/scene_builder.h"
+#include "vm/machine.h"
+
+namespace tyndall::compile {
+namespace {
+
+using support::Expression;
+using support::Point;
+using support::SceneBuilder;
+
+Expression fbm(const Point& p, std::uint8_t octaves) {
+  return {p.x.builder, p.x.builder->emit(vm::Op::fbm3, {p.x.node, p.y.node, p.z.node}, {}, octaves)};
+}
+// A cloud that fills about a tenth of its box, with edges, noise and a jump.
+Expression cloud(const Point& p) {
+  const Expression shape = max(0.6f - length(p) + fbm({p.x * 3.f, p.y * 3.f, p.z * 3.f}, 4) * 0.5f, 0);
+  return shape * 12.f * (less(p.y, 0.35f) * 0.5f + 0.5f);
+}
+
+struct Built {
+  CompiledScene world;
+  const MajorantGrid& grid() const { return *world.grids.at(world.volumes.at(0).grid); }
+};
+Built built(const support::Density& density, const Transform& placed = {},
+            const scene::Shape& shape = scene::Box{{-1, -1, -1}, {1, 1, 1}}) {
+  SceneBuilder builder;
+  builder.image(640, 360, 1).perspective({0, 0.3, 1.2}, {0, 0, 0}, 60);
+  builder.volume(shape, builder.shader({}, density), placed);
+  return {compile(builder.scene)};
+}
+
+// Extinction at points of p, by the machine.
+std::vector<float> extinction(const CompiledScene& world, const std::vector<Vec3d>& points) {
+  const vm::Program& program = world.scene.media[0].extinction;
+  std::array<std::vector<float>, 3> p;
+  for (const Vec3d& point : points)
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis].push_back(static_cast<float>(point[axis]));
+  vm::BatchInputs inputs;
+  for (std::size_t axis = 0; axis < 3; ++axis) inputs[static_cast<vm::Input>(axis)] = p[axis].data();
+  std::vector<std::vector<float>> rows(program.outputs.size(), std::vector<float>(points.size()));
+  std::vector<float*> outputs;
+  for (auto& row : rows) outputs.push_back(row.data());
+  vm::Machine machine;
+  machine.run(program, inputs, points.size(), outputs);
+  return rows[0];
+}
+
+TEST(MajorantGrids, HoldAtEveryPoint) {
+  const Built b = built(cloud);
+  BoundsScratch scratch;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<Vec3d> points;
+  for (int i = 0; i < 200000; ++i) points.push_back({uniform(random), uniform(random), uniform(random)});
+  const std::vector<float> sigma = extinction(b.world, points);
+  std::size_t zero = 0, proved = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const CellBounds cell = b.grid().at(points[i], scratch);
+    ASSERT_LE(cell.minorant, sigma[i]) << i;
+    ASSERT_GE(cell.majorant, sigma[i]) << i;
+    ASSERT_TRUE(cell.kind != CellKind::empty || sigma[i] == 0) << i;
+    zero += sigma[i] == 0;
+    proved += cell.kind == CellKind::empty;
+  }
+  EXPECT_GT(static_cast<double>(proved), 0.8 * static_cast<double>(zero));
+}
+
+TEST(MajorantGrids, WalksCoverTheRayWithoutGapsAndHoldOnIt) {
+  const Transform placed = Transform::translate({0.2, -0.1, 0}) * Transform::rotate({1, 2, 0}, 0.7) *
+                           Transform::scale({1.5, 0.4, -0.8});
+  const Built b = built(cloud, placed);
+  const CompiledVolume& volume = b.world.volumes[0];
+  BoundsScratch scratch;
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::size_t walked = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3d towards = volume.render_from_shape.point({uniform(random), uniform(random), uniform(random)});
+    const Vec3d from =
+        i % 3 == 0 ? towards : Vec3d{3 * uniform(random), 3 * uniform(random), 3 * uniform(random)};
+    Vec3d direction = i % 7 == 0 ? Vec3d{0, 0, 1} : towards - from;
+    if (i % 3 == 0) direction = {uniform(random), uniform(random), i % 5 == 0 ? 0 : uniform(random)};
+    const Ray ray = {from, normalize(direction), i % 4 == 0 ? 2.5 : infinity};
+    std::vector<VolumeInterval> stays;
+    b.world.volume_intervals(ray, RayKind::scattered, stays);
+    for (const VolumeInterval& stay : stays) {
+      GridWalk walk(b.grid(), volume.medium_from_render, ray, stay.t0, stay.t1, scratch);
+      MajorantSegment s;
+      double t = stay.t0;
+      std::vector<Vec3d> points;
+      std::vector<CellBounds> cells;
+      while (walk.next(s)) {
+        ASSERT_EQ(s.t0, t);
+        ASSERT_LT(s.t0, s.t1);
+        t = s.t1;
+        for (const double part : {0.0, 0.31, 0.77, 1.0}) {
+          points.push_back(
+              volume.medium_from_render.point(ray.origin + ray.direction * (s.t0 + part * (s.t1 - s.t0))));
+          cells.push_back(s.bounds);
+        }
+      }
+      ASSERT_EQ(t, stay.t1);
+      const std::vector<float> sigma = extinction(b.world, points);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        ASSERT_LE(cells[k].minorant, sigma[k]) << i << ' ' << k;
+        ASSERT_GE(cells[k].majorant, sigma[k]) << i << ' ' << k;
+      }
+      walked += points.size();
+    }
+  }
+  EXPECT_GT(walked, 20000u);
+}
+
+TEST(MajorantGrids, DoNotDependOnWhoComesFirst) {
+  const Built one = built(cloud), other = built(cloud);
+  const auto visit = [](const MajorantGrid& grid, std::uint32_t first, std::uint32_t step) {
+    BoundsScratch scratch;
+    const std::uint32_t count = grid.brick_count();
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t i = (first + k * step) % count;
+      grid.brick(i % grid.bricks()[0], i / grid.bricks()[0] % grid.bricks()[1],
+                 i / (grid.bricks()[0] * grid.bricks()[1]), scratch);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::uint32_t t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] { visit(other.grid(), t * 91, 1 + 2 * t); });
+  visit(one.grid(), 0, 1);
+  for (std::thread& t : threads) t.join();
+  BoundsScratch scratch;
+  for (std::uint32_t i = 0; i < one.grid().brick_count(); ++i) {
+    const auto& bricks = one.grid().bricks();
+    const std::uint32_t x = i % bricks[0], y = i / bricks[0] % bricks[1], z = i / (bricks[0] * bricks[1]);
+    const MajorantGrid::Brick &a = one.grid().brick(x, y, z, scratch),
+                              &b = other.grid().brick(x, y, z, scratch);
+    for (std::uint32_t c = 0; c < MajorantGrid::brick_cells; ++c) {
+      ASSERT_EQ(a.cell(c).majorant, b.cell(c).majorant);
+      ASSERT_EQ(a.cell(c).minorant, b.cell(c).minorant);
+      ASSERT_EQ(a.cell(c).kind, b.cell(c).kind);
+    }
+  }
+}
+
+TEST(MajorantGrids, FindWhatIsUniformAndWhatIsEmpty) {
+  const Built b = built([](const Point& p) { return less(p.x, 0) * 3.f; });
+  BoundsScratch scratch;
+  EXPECT_EQ(b.grid().at({0.5, 0, 0}, scratch).kind, CellKind::empty);
+  const CellBounds inside = b.grid().at({-0.5, 0, 0}, scratch);
+  EXPECT_EQ(inside.kind, CellKind::uniform);
+  EXPECT_EQ(inside.minorant, 3);
+  EXPECT_EQ(inside.majorant, 3);
+  // A negative density is a mistake that the march reports: nothing is skipped.
+  const Built negative = built([](const Point& p) { return p.x - 5.f; });
+  EXPECT_EQ(negative.grid().at({0.5, 0, 0}, scratch).kind, CellKind::varying);
+  EXPECT_EQ(negative.grid().at({0.5, 0, 0}, scratch).majorant, 0);
+}
+
+TEST(MajorantGrids, BoundWhatReadsTheWorldInTheWorld) {
+  SceneBuilder builder;
+  builder.image(640, 360, 1).perspective({0, 0, 4}, {0, 0, 0}, 60);
+  vm::Builder shader(false);
+  const Expression x{&shader, shader.input(vm::Input::P_x)};
+  scene::Medium medium;
+  const vm::NodeId output = (max(x, 0) * 2.f).node;
+  medium.full = *shader.finish(std::span(&output, 1));
+  medium.extinction = medium.full;
+  medium.output_spans.resize(1);
+  medium.phase = {support::isotropic()};
+  builder.scene.media.push_back(medium);
+  const Transform turned = Transform::translate({0.5, 0, 0}) * Transform::rotate({0, 0, 1}, pi / 2);
+  builder.volume(scene::Box{{-1, -1, -1}, {1, 1, 1}}, scene::MediumId(std::size_t{0}), turned);
+  const CompiledScene world = compile(builder.scene);
+  const MajorantGrid& grid = *world.grids[0];
+  BoundsScratch scratch;
+  const Vec3d p = {0.2, -0.7, 0.1};
+  const double sigma = 2 * turned.point(p).x;
+  const CellBounds cell = grid.at(p, scratch);
+  EXPECT_LE(cell.minorant, sigma);
+  EXPECT_GE(cell.majorant, sigma);
+  EXPECT_LT(cell.majorant - cell.minorant, 0.2);
+  EXPECT_EQ(grid.at({0, 0.9, 0}, scratch).kind, CellKind::empty);
+}
+
+TEST(MajorantGrids, AreSharedByEqualVolumesAndBoundedInMemory) {
+  SceneBuilder builder;
+  builder.perspective({0, 0, 30}, {0, 0, 0}, 60);
+  const scene::MediumId medium = builder.shader({}, cloud);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-9, 9);
+  for (int i = 0; i < 300; ++i)
+    builder.volume(scene::Sphere{{}, 1}, medium,
+                   Transform::translate({uniform(random), uniform(random), uniform(random)}) *
+                       Transform::rotate({uniform(random), 1, 0}, uniform(random)));
+  EXPECT_EQ(compile(builder.scene).grids.size(), 1u);
+
+  for (int i = 0; i < 300; ++i)
+    builder.volume(scene::Box{{-1, -1, -1}, {1, 1, 1 + 0.1 * i}}, medium, Transform::translate({0, 0, 28}));
+  const CompiledScene world = compile(builder.scene);
+  EXPECT_EQ(world.grids.size(), 300u);  // the first box is the spheres'
+  std::size_t bytes = 0;
+  for (const auto& grid : world.grids) {
+    const std::size_t one = std::size_t{grid->brick_count()} * (sizeof(MajorantGrid::Brick::Cells) + 64);
+    EXPECT_LE(one, std::size_t{4} << 20);
+    bytes += one;
+  }
+  EXPECT_LE(bytes, std::size_t{256} << 20);
+}
+
+TEST(MajorantGrids, AreNotMadeForWhatDoesNotVary) {
+  SceneBuilder builder;
+  builder.volume(scene::Sphere{{}, 1}, builder.constant({}));
+  EXPECT_TRUE(compile(builder.scene).grids.empty());
+}
+
+}  // namespace
+}  // namespace tyndall::compile
