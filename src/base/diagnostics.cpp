@@ -17,6 +17,15 @@ void Diagnostics::error(Span span, std::string message, std::string help,
   add({Severity::error, span, std::move(message), std::move(help), std::move(notes)});
 }
 
+void Diagnostics::error_once(Span span, std::string message, std::string help,
+                             std::vector<Diagnostic::Note> notes) {
+  const auto same = [&](const Diagnostic& other) {
+    return other.severity == Severity::error && other.message == message;
+  };
+  if (std::none_of(list_.begin(), list_.end(), same))
+    error(span, std::move(message), std::move(help), std::move(notes));
+}
+
 void Diagnostics::warning(Span span, std::string message, std::string help,
                           std::vector<Diagnostic::Note> notes) {
   add({Severity::warning, span, std::move(message), std::move(help), std::move(notes)});

@@ -37,6 +37,11 @@ class Diagnostics {
   void warning(Span span, std::string message, std::string help = {},
                std::vector<Diagnostic::Note> notes = {});
 
+  // The same, unless the message has been reported at any place: what is missing is missed once, however
+  // often it is used.
+  void error_once(Span span, std::string message, std::string help = {},
+                  std::vector<Diagnostic::Note> notes = {});
+
   bool has_errors() const { return error_count_ > 0; }
   int error_count() const { return error_count_; }
   int warning_count() const { return warning_count_; }
@@ -62,7 +67,8 @@ std::string render_text(const Diagnostic& d, const Sources& sources, bool color)
 std::string render_text(const Diagnostics& all, const Sources& sources, bool color);
 
 // The candidate nearest to `word` by edit distance, whatever the case of letters, or one that begins with it;
-// empty when none resembles it. A candidate equal to the word is no candidate.
+// empty when none resembles it. A candidate equal to the word is no candidate; of equally near ones the first
+// is taken.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 // "did you mean 'x'?" or empty.
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates);

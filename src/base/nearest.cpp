@@ -1,6 +1,7 @@
 // "Did you mean": the known word nearest to a mistyped one.
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "base/diagnostics.h"
 
@@ -43,7 +44,9 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
   if (word.empty() || word.size() > longest_word) return {};
   const std::string wanted = lower(word);
   std::string_view best;
-  std::size_t best_distance = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t far = std::numeric_limits<std::size_t>::max();
+  // Letters that differ, then those that differ in case too: 'P' is nearer to 'PP' than 'p' is.
+  std::pair<std::size_t, std::size_t> best_distance{far, far};
   for (const std::string_view candidate : candidates) {
     if (candidate == word || candidate.size() > longest_word) continue;
     const std::string known = lower(candidate);
@@ -54,9 +57,11 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
       if (wanted.size() < shortest_beginning || !known.starts_with(wanted)) continue;
       distance = longest_word + known.size();  // a beginning: only when nothing is alike
     }
-    if (distance < best_distance) {
+    if (distance > best_distance.first) continue;
+    const std::pair<std::size_t, std::size_t> with_case{distance, edit_distance(word, candidate)};
+    if (with_case < best_distance) {
       best = candidate;
-      best_distance = distance;
+      best_distance = with_case;
     }
   }
   return best;

@@ -49,10 +49,7 @@ Value call_builtin(Evaluator& ev, const BuiltinEntry& entry, const SyntaxTree& t
       if (index == entry.parameters.size()) {
         std::vector<std::string_view> names;
         for (const vm::BuiltinParameter& parameter : row.parameters) names.push_back(parameter.name);
-        const std::string guess = did_you_mean(ev.text(argument.name.symbol), names);
-        ev.error(argument.name.span,
-                 fmt::format("'{}' has no parameter '{}'", row.name, ev.text(argument.name.symbol)),
-                 guess.empty() ? signature(row) : guess);
+        report_unknown_parameter(ev, row.name, argument.name, names, {});
         ev.check_names(tree, argument.value, scope);
         failed = true;
         continue;

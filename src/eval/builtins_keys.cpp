@@ -30,8 +30,11 @@ bool read_ease(CallSite& site, syntax::ExprId id, Ease& ease) {
       ease = value;
       return true;
     }
+  std::vector<std::string_view> known;
+  for (const auto& row : words) known.push_back(row.first);
+  const std::string guess = did_you_mean(written, known);
   site.ev.error(expr.span, name ? fmt::format("there is no ease '{}'", written) : "'ease' wants a word",
-                "ease is linear, smooth or hold");
+                guess.empty() ? "ease is linear, smooth or hold" : guess);
   return false;
 }
 

@@ -9,19 +9,26 @@ namespace tyndall::eval {
 
 using namespace syntax;
 
-namespace {
-
 std::vector<std::string_view> parameter_names(const Evaluator& ev, std::span<const Parameter> parameters) {
   std::vector<std::string_view> names;
   for (const Parameter& parameter : parameters) names.push_back(ev.text(parameter.name.symbol));
   return names;
 }
 
-std::string listed(const std::vector<std::string_view>& names) {
+static std::string listed(const std::vector<std::string_view>& names) {
   return names.empty() ? "it takes no arguments" : fmt::format("it takes {}", fmt::join(names, ", "));
 }
 
-}  // namespace
+void report_unknown_parameter(Evaluator& ev, std::string_view callee, const Name& argument,
+                              const std::vector<std::string_view>& parameters, Span definition) {
+  const std::string_view word = ev.text(argument.symbol);
+  const std::string guess = did_you_mean(word, parameters);
+  std::vector<Diagnostic::Note> notes;
+  if (definition.valid())
+    notes.push_back({definition, fmt::format("the parameters of '{}' are here", callee)});
+  ev.error(argument.span, fmt::format("'{}' has no parameter '{}'", callee, word),
+           guess.empty() ? listed(parameters) : guess, std::move(notes));
+}
 
 std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tree, ListRef parameter_list,
                                                  const std::shared_ptr<const Scope>& definition_scope,
@@ -42,13 +49,8 @@ std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tr
       index = 0;
       while (index < parameters.size() && parameters[index].name.symbol != argument.name.symbol) ++index;
       if (index == parameters.size()) {
-        const auto names = parameter_names(*this, parameters);
-        const std::string_view word = text(argument.name.symbol);
-        const std::string guess = did_you_mean(word, names);
-        error(span, fmt::format("'{}' has no parameter '{}'", callee, word),
-              guess.empty() ? listed(names) : guess,
-              {{definition_tree.parameters.empty() || parameters.empty() ? Span{} : parameters[0].name.span,
-                "the parameters"}});
+        report_unknown_parameter(*this, callee, argument.name, parameter_names(*this, parameters),
+                                 parameters.empty() ? Span{} : parameters[0].name.span);
         failed = true;
         check_names(call_tree, argument.value, call_scope);
         continue;
@@ -111,7 +113,7 @@ Value Evaluator::call(const Function& function, const SyntaxTree& tree, const Ca
     result = evaluate(*function.tree, item->value, inner);
   } else {
     const int errors = errors_reported_;
-    const std::optional<Value> returned = run_steps(*function.tree, item->steps, inner, {});
+    const std::optional<Value> returned = run_steps(*function.tree, item->steps, inner, nullptr);
     if (returned)
       result = *returned;
     else if (errors_reported_ == errors)

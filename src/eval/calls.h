@@ -28,6 +28,13 @@ struct CallSite {
   std::string what(std::size_t i) const;
 };
 
+std::vector<std::string_view> parameter_names(const Evaluator& evaluator,
+                                              std::span<const syntax::Parameter> parameters);
+// An argument for a parameter that `callee` does not have; `definition` is where it has its parameters, if
+// that is in a scene.
+void report_unknown_parameter(Evaluator& evaluator, std::string_view callee, const syntax::Name& argument,
+                              const std::vector<std::string_view>& parameters, Span definition);
+
 Value evaluate_call(Evaluator& evaluator, const syntax::SyntaxTree& tree, const syntax::CallExpr& call,
                     Span span, const std::shared_ptr<Scope>& scope);
 // Calls a built-in of any shape.

@@ -111,7 +111,7 @@ Value Evaluator::value_of_name(SymbolId symbol, Span span, const Scope& scope) {
 }
 
 Value Evaluator::unknown_name(SymbolId symbol, Span span, const Scope* scope,
-                              std::span<const SymbolId> locals) {
+                              std::span<const SymbolId> locals, std::optional<BodyKind> inputs) {
   const std::string_view word = text(symbol);
   const Special special = names().special(symbol);
   if (special != Special::none) {
@@ -122,15 +122,30 @@ Value Evaluator::unknown_name(SymbolId symbol, Span span, const Scope* scope,
     return error(span, fmt::format("'{}' is known only inside a medium or material", word),
                  frames_.empty() ? "" : "pass it as an argument");
   }
+  if (context_.unread.may_define(symbol)) {
+    ++errors_reported_;
+    return {};
+  }
+  // Those that nothing uses first: one of them may have been meant.
   std::vector<std::string_view> candidates;
+  for (const bool used : {false, true})
+    for (const Scope* s = scope; s; s = s->parent.get())
+      for (const Binding& binding : s->bindings)
+        if (binding.used == used) candidates.push_back(text(binding.symbol));
   for (const SymbolId local : locals) candidates.push_back(text(local));
-  for (const Scope* s = scope; s; s = s->parent.get())
-    for (const Binding& binding : s->bindings) candidates.push_back(text(binding.symbol));
   for (const auto& entry : names().builtins) candidates.push_back(entry->row->name);
-  for (const Special known : {Special::time, Special::frame, Special::pi, Special::p, Special::P, Special::n,
-                              Special::N, Special::uv})
-    if (!has_input(BodyKind::material, known) || sees(known)) candidates.push_back(spelling(known));
-  return error(span, fmt::format("nothing is named '{}' here", word), did_you_mean(word, candidates));
+  for (const Special known : {Special::p, Special::P, Special::n, Special::N, Special::uv, Special::time,
+                              Special::frame, Special::pi})
+    if (!has_input(BodyKind::material, known) || sees(known) || (inputs && has_input(*inputs, known)))
+      candidates.push_back(spelling(known));
+  const std::string_view meant = nearest(word, candidates);
+  std::vector<Diagnostic::Note> notes;
+  for (const Scope* s = scope; s && notes.empty(); s = s->parent.get())
+    for (const Binding& binding : s->bindings)
+      if (text(binding.symbol) == meant)
+        notes.push_back({binding.definition, fmt::format("'{}' is defined here", meant)});
+  return error_once(span, fmt::format("nothing is named '{}' here", word), did_you_mean(word, candidates),
+                    std::move(notes));
 }
 
 // True for values that may hold the scope they are bound in: definitions, bodies, shapes, and lists of them.
@@ -232,6 +247,7 @@ bool Evaluator::define(const SyntaxTree& tree, const Item& item, const std::shar
 }
 
 void Evaluator::report_unused(const Scope& scope) {
+  if (context_.diagnostics->has_errors()) return;  // they may hide the uses
   for (const Binding& binding : scope.bindings) {
     if (binding.used || binding.kind == BindingKind::parameter || binding.value.is_error()) continue;
     if (binding.definition.source != context_.main_source || text(binding.symbol).starts_with('_')) continue;

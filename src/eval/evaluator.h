@@ -1,6 +1,7 @@
 // Evaluates expressions: literals, operators, built-ins, functions with steps, conditionals, lists, ranges.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -26,6 +27,16 @@ inline constexpr int max_unrolled_iterations = 4'096;   // one `for` in a body
 inline constexpr int max_total_unrolled = 65'536;       // all of them in one body
 inline constexpr int max_octaves = 32;
 
+// What could not be read, and has been told: names that may have been defined there are not complained of.
+struct Unread {
+  std::vector<syntax::SymbolId> definitions;  // their beginnings could be read
+  bool file = false;                          // a whole file: any name may come from there
+
+  bool may_define(syntax::SymbolId symbol) const {
+    return file || std::find(definitions.begin(), definitions.end(), symbol) != definitions.end();
+  }
+};
+
 // What a whole run shares.
 struct Context {
   const Sources* sources = nullptr;
@@ -33,7 +44,8 @@ struct Context {
   Diagnostics* diagnostics = nullptr;
   double time = 0;  // seconds, when the shutter opens
   double frame = 0;
-  SourceId main_source{0};         // the file whose unused names are warned of
+  SourceId main_source{0};  // the file whose unused names are warned of
+  Unread unread{};
   std::shared_ptr<Names> names{};  // made when first needed; must outlive the values of the run
 };
 
@@ -83,21 +95,30 @@ class Evaluator {
   // without a default. `use` is the place that names the body.
   std::optional<Body> bound(const Body& body, Span use);
 
-  // Runs let, var, assignment, if, for and nested def items of a block in order. For bodies `assign_output`
-  // is told of an assignment to a name that is no `var` in scope (an output); for function steps it is empty
-  // and `return` gives the value.
-  using AssignOutput =
-      std::function<void(const syntax::Item& item, const syntax::AssignItem& assign, Value value)>;
+  // Runs let, var, assignment, if, for and nested def items of a block in order. For bodies `outputs->assign`
+  // is told of an assignment to a name that is no `var` in scope but an output; for function steps there are
+  // none and `return` gives the value.
+  struct Outputs {
+    std::string_view owner;               // the body, as messages name it
+    std::vector<std::string_view> names;  // of those that it may set
+    std::function<void(const syntax::Item& item, const syntax::AssignItem& assign, Value value)> assign;
+  };
+  // Reports a name that is set but is no output; `variables` are what else may have been meant.
+  void report_no_output(const Outputs& outputs, const syntax::Name& name,
+                        const std::vector<std::string_view>& variables);
   std::optional<Value> run_steps(const syntax::SyntaxTree& tree, syntax::BlockId block,
-                                 const std::shared_ptr<Scope>& scope, const AssignOutput& assign_output);
+                                 const std::shared_ptr<Scope>& scope, const Outputs* outputs);
 
   // Looks every name of the expression or block up, without evaluating it; reports unknown ones.
   void check_names(const syntax::SyntaxTree& tree, syntax::ExprId expr,
                    const std::shared_ptr<const Scope>& scope);
+  // `parameters` and `local` are known in the block besides.
   void check_names(const syntax::SyntaxTree& tree, syntax::BlockId block,
-                   const std::shared_ptr<const Scope>& scope);
+                   const std::shared_ptr<const Scope>& scope, syntax::ListRef parameters = {},
+                   syntax::SymbolId local = {});
 
   // Warns of every binding of this scope that nothing used, except parameters and names with a leading `_`.
+  // Silent once there are errors, which may hide the uses.
   void report_unused(const Scope& scope);
 
   // The value of `op`: computed when every operand is known, a node of the program otherwise.
@@ -114,6 +135,8 @@ class Evaluator {
   // Reports an error with the chain of calls that led here, and gives the error value.
   Value error(Span span, std::string message, std::string help = {},
               std::vector<Diagnostic::Note> notes = {});
+  // The same, unless the message has been reported at any place.
+  Value error_once(Span span, std::string message, std::string help, std::vector<Diagnostic::Note> notes);
   // In scene code: the value, or an error when a scalar of it is not finite.
   Value finite(const Value& value, Span span);
 
@@ -146,7 +169,8 @@ class Evaluator {
   Value input(Special special, Span span);
   Value value_of_name(syntax::SymbolId symbol, Span span, const Scope& scope);
   Value unknown_name(syntax::SymbolId symbol, Span span, const Scope* scope,
-                     std::span<const syntax::SymbolId> locals);
+                     std::span<const syntax::SymbolId> locals, std::optional<syntax::BodyKind> inputs = {});
+  std::vector<Diagnostic::Note> calls_that_led_here() const;
   bool sees(Special special) const;
   friend Value evaluate_call(Evaluator&, const syntax::SyntaxTree&, const syntax::CallExpr&, Span,
                              const std::shared_ptr<Scope>&);

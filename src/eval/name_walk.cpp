@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace tyndall::eval {
 
@@ -11,13 +12,18 @@ using namespace syntax;
 
 namespace {
 
+// What is around a name: which inputs it may be.
+enum class Around : std::uint8_t { outside, medium, material, unnamed_body };
+
 // Visits every name that is looked up in a piece of tree, keeping account of the names that the piece itself
-// defines. `Visitor` is called with the name's symbol and place.
+// defines. `Visitor` has `name(symbol, place, locals, around)`, and `call(tree, call, locals)` for every
+// call.
 template <class Visitor>
 class NameWalk {
  public:
-  NameWalk(const SyntaxTree& tree, SymbolId ease, Visitor visitor)
-      : tree_(tree), ease_(ease), visitor_(std::move(visitor)) {}
+  // `choices`: the words that stand for values; null takes them for names.
+  NameWalk(const SyntaxTree& tree, const Names* choices, Visitor visitor)
+      : tree_(tree), choices_(choices), visitor_(std::move(visitor)) {}
 
   std::vector<SymbolId> locals;
 
@@ -64,7 +70,7 @@ class NameWalk {
     next_ = ExprId{};
   }
   void children(const NameExpr& e, Span span) {
-    if (!is_local(e.symbol)) visitor_(e.symbol, span, locals);
+    if (!is_local(e.symbol)) visitor_.name(e.symbol, span, locals, around_);
   }
   void children(const UnaryExpr& e, Span) { continue_with(e.operand); }
   void children(const BinaryExpr& e, Span) {
@@ -77,9 +83,10 @@ class NameWalk {
     continue_with(e.else_value);
   }
   void children(const CallExpr& e, Span) {
+    visitor_.call(tree_, e, locals);
     for (const Argument& argument : tree_.list_of_arguments(e.arguments)) {
-      const bool is_word =
-          argument.name.symbol == ease_ && std::holds_alternative<NameExpr>(tree_[argument.value].node);
+      const bool is_word = choices_ && argument.name.symbol == choices_->ease &&
+                           std::holds_alternative<NameExpr>(tree_[argument.value].node);
       if (!is_word) expr(argument.value);
     }
     continue_with(e.callee);
@@ -98,7 +105,7 @@ class NameWalk {
   }
   void children(const ThingExpr& e, Span) {
     expr(e.file);
-    block(e.block);
+    within(e.keyword.symbol.valid() ? around_ : Around::unnamed_body, e.block);
     next_ = ExprId{};
   }
 
@@ -114,14 +121,20 @@ class NameWalk {
     function(i.parameters, ExprId{}, i.body);
   }
   void item(const BodyItem& i) {
-    function(i.parameters, ExprId{}, i.body);
+    const std::size_t outside = locals.size();
+    parameters(i.parameters);
+    within(i.kind == BodyKind::medium ? Around::medium : Around::material, i.body);
+    locals.resize(outside);
     locals.push_back(i.name.symbol);
   }
   void item(const ObjectItem& i) {
     block(i.body);
     locals.push_back(i.name.symbol);
   }
-  void item(const PlaceItem& i) { block(i.block); }
+  void item(const PlaceItem& i) {
+    if (!is_local(i.name.symbol)) visitor_.name(i.name.symbol, i.name.span, locals, around_);
+    block(i.block);
+  }
   void item(const IncludeItem& i) { expr(i.file); }
   void item(const ForItem& i) {
     expr(i.range);
@@ -136,8 +149,8 @@ class NameWalk {
   }
   void item(const ReturnItem& i) { expr(i.value); }
   void item(const ParameterItem& i) {
-    // A bare word may be one of the parameter's choices: only its reader knows.
-    if (!std::holds_alternative<NameExpr>(tree_[i.value].node)) expr(i.value);
+    const auto* word = std::get_if<NameExpr>(&tree_[i.value].node);
+    if (!word || !choices_ || word->symbol != choices_->automatic) expr(i.value);
   }
   void item(const ThingItem& i) {
     expr(i.file);
@@ -145,6 +158,11 @@ class NameWalk {
   }
   void item(const CallItem& i) { expr(i.call); }
 
+  void within(Around around, BlockId id) {
+    const Around outer = std::exchange(around_, around);
+    block(id);
+    around_ = outer;
+  }
   void defined(const Name& name, ExprId value) {
     expr(value);
     locals.push_back(name.symbol);
@@ -158,18 +176,30 @@ class NameWalk {
   }
 
   const SyntaxTree& tree_;
-  SymbolId ease_;
+  const Names* choices_;
   Visitor visitor_;
   ExprId next_;
+  Around around_ = Around::outside;
+};
+
+}  // namespace
+
+namespace {
+
+struct FoundNames {
+  std::vector<SymbolId>& found;
+
+  void name(SymbolId symbol, Span, const std::vector<SymbolId>&, Around) const {
+    if (std::find(found.begin(), found.end(), symbol) == found.end()) found.push_back(symbol);
+  }
+  void call(const SyntaxTree&, const CallExpr&, const std::vector<SymbolId>&) const {}
 };
 
 }  // namespace
 
 std::vector<SymbolId> free_names(const SyntaxTree& tree, BlockId block) {
   std::vector<SymbolId> found;
-  NameWalk walk(tree, SymbolId{}, [&](SymbolId symbol, Span, const std::vector<SymbolId>&) {
-    if (std::find(found.begin(), found.end(), symbol) == found.end()) found.push_back(symbol);
-  });
+  NameWalk walk(tree, nullptr, FoundNames{found});
   walk.block(block);
   return found;
 }
@@ -183,7 +213,7 @@ class NameCheck {
   bool in_function = false;
   SymbolId self{};
 
-  void operator()(SymbolId symbol, Span span, const std::vector<SymbolId>& locals) const {
+  void name(SymbolId symbol, Span span, const std::vector<SymbolId>& locals, Around around) const {
     const Special special = ev_.names().special(symbol);
     if (special == Special::time || special == Special::frame || special == Special::pi) return;
     if (symbol == self) {
@@ -191,6 +221,7 @@ class NameCheck {
                 "loop with for, or give it another name");
       return;
     }
+    if (special != Special::none && has_input(around, special)) return;
     if (special != Special::none && !in_function && (inputs_of ? body_has(special) : ev_.sees(special)))
       return;
     if (scope_->find(symbol) || ev_.names().builtin(symbol)) return;
@@ -200,7 +231,30 @@ class NameCheck {
     else if (special != Special::none && inputs_of)
       ev_.error(span, fmt::format("a medium has no '{}'", ev_.text(symbol)), "its inputs are p, P and time");
     else
-      ev_.unknown_name(symbol, span, scope_.get(), locals);
+      ev_.unknown_name(symbol, span, scope_.get(), locals, inputs(around));
+  }
+
+  // Arguments are given to parameters that there are.
+  void call(const SyntaxTree& tree, const CallExpr& call, const std::vector<SymbolId>& locals) const {
+    const auto* callee = std::get_if<NameExpr>(&tree[call.callee].node);
+    if (!callee || std::find(locals.begin(), locals.end(), callee->symbol) != locals.end()) return;
+    std::vector<std::string_view> names;
+    Span definition;
+    if (const Binding* binding = scope_->find(callee->symbol)) {
+      const std::optional<Declared> declared = parameters_of(binding->value);
+      if (!declared) return;
+      const auto parameters = declared->tree->list_of_parameters(declared->parameters);
+      names = parameter_names(ev_, parameters);
+      if (!parameters.empty()) definition = parameters[0].name.span;
+    } else if (const BuiltinEntry* entry = ev_.names().builtin(callee->symbol)) {
+      for (const vm::BuiltinParameter& parameter : entry->row->parameters) names.push_back(parameter.name);
+    } else {
+      return;
+    }
+    for (const Argument& argument : tree.list_of_arguments(call.arguments))
+      if (argument.name.symbol.valid() &&
+          std::find(names.begin(), names.end(), ev_.text(argument.name.symbol)) == names.end())
+        report_unknown_parameter(ev_, ev_.text(callee->symbol), argument.name, names, definition);
   }
 
  private:
@@ -208,17 +262,60 @@ class NameCheck {
     return inputs_of == BodyKind::material || special == Special::p || special == Special::P;
   }
 
+  std::optional<BodyKind> inputs(Around around) const {
+    switch (around) {
+      case Around::outside:
+        return inputs_of;
+      case Around::medium:
+        return BodyKind::medium;
+      case Around::material:
+      case Around::unnamed_body:
+        return BodyKind::material;
+    }
+    return std::nullopt;
+  }
+  static bool has_input(Around around, Special special) {
+    switch (around) {
+      case Around::outside:
+        return false;
+      case Around::medium:
+        return special == Special::p || special == Special::P;
+      case Around::material:
+      case Around::unnamed_body:
+        return true;
+    }
+    return false;
+  }
+  struct Declared {
+    const SyntaxTree* tree;
+    ListRef parameters;
+  };
+  static std::optional<Declared> parameters_of(const Value& value) {
+    if (const auto* body = value.get<Body>(); body && body->item)
+      return Declared{body->tree, body->item->parameters};
+    const auto* function = value.get<Function>();
+    if (!function) return std::nullopt;
+    if (const auto* item = std::get_if<FunctionItem>(&function->item->node))
+      return Declared{function->tree, item->parameters};
+    if (const auto* form = std::get_if<TemplateItem>(&function->item->node))
+      return Declared{function->tree, form->parameters};
+    return std::nullopt;
+  }
+
   Evaluator& ev_;
   const std::shared_ptr<const Scope>& scope_;
 };
 
 void Evaluator::check_names(const SyntaxTree& tree, ExprId id, const std::shared_ptr<const Scope>& scope) {
-  NameWalk walk(tree, names().ease, NameCheck(*this, scope));
+  NameWalk walk(tree, &names(), NameCheck(*this, scope));
   walk.expr(id);
 }
 
-void Evaluator::check_names(const SyntaxTree& tree, BlockId id, const std::shared_ptr<const Scope>& scope) {
-  NameWalk walk(tree, names().ease, NameCheck(*this, scope));
+void Evaluator::check_names(const SyntaxTree& tree, BlockId id, const std::shared_ptr<const Scope>& scope,
+                            ListRef parameters, SymbolId local) {
+  NameWalk walk(tree, &names(), NameCheck(*this, scope));
+  if (local.valid()) walk.locals.push_back(local);
+  walk.parameters(parameters);
   walk.block(id);
 }
 
@@ -228,17 +325,17 @@ void check_definition(Evaluator& ev, const SyntaxTree& tree, const Item& item,
   if (const auto* function = std::get_if<FunctionItem>(&item.node)) {
     check.in_function = true;
     check.self = function->name.symbol;
-    NameWalk walk(tree, ev.names().ease, check);
+    NameWalk walk(tree, &ev.names(), check);
     walk.parameters(function->parameters);
     walk.expr(function->value);
     if (function->steps.valid()) walk.block(function->steps);
   } else if (const auto* body = std::get_if<BodyItem>(&item.node)) {
     NameCheck defaults = check;
     defaults.in_function = true;
-    NameWalk walk_defaults(tree, ev.names().ease, defaults);
+    NameWalk walk_defaults(tree, &ev.names(), defaults);
     walk_defaults.parameters(body->parameters);
     check.inputs_of = body->kind;
-    NameWalk walk(tree, ev.names().ease, check);
+    NameWalk walk(tree, &ev.names(), check);
     walk.locals = walk_defaults.locals;
     walk.block(body->body);
   }

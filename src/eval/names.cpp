@@ -38,6 +38,7 @@ Names::Names(syntax::Symbols& symbols) {
       {"P", Special::P},       {"n", Special::n},         {"N", Special::N},   {"uv", Special::uv}};
   for (const auto& [word, special] : words) place(specials, symbols.intern(word), special);
   ease = symbols.intern("ease");
+  automatic = symbols.intern("auto");
   for (const auto rows : {vm::builtins(), phase_builtins()})
     for (const vm::Builtin& row : rows) {
       const Handlers handlers = handlers_of(row);

@@ -45,7 +45,8 @@ struct Names {
   std::vector<Special> specials;  // by symbol
   std::vector<const BuiltinEntry*> builtins_by_symbol;
   std::vector<std::unique_ptr<BuiltinEntry>> builtins;
-  syntax::SymbolId ease;
+  // Words that are looked up before any name: the argument `ease` takes some, `auto` stands for a value.
+  syntax::SymbolId ease, automatic;
 
   // Scopes that hold definitions are held by them in turn; the run's end lets go of them.
   std::vector<std::shared_ptr<const Scope>> scopes_with_definitions;

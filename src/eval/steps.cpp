@@ -38,8 +38,8 @@ struct PartialReturn {
 
 class Steps {
  public:
-  Steps(Evaluator& ev, const SyntaxTree& tree, const Evaluator::AssignOutput& assign_output)
-      : ev_(ev), tree_(tree), assign_output_(assign_output) {}
+  Steps(Evaluator& ev, const SyntaxTree& tree, const Evaluator::Outputs* outputs)
+      : ev_(ev), tree_(tree), outputs_(outputs) {}
 
   std::optional<Value> run_all(BlockId block, const std::shared_ptr<Scope>& scope) {
     std::optional<Value> result = run(block, scope);
@@ -64,10 +64,10 @@ class Steps {
         returned = this->result(*result, item.span, scope);
       else if (!ev_.define(tree_, item, scope))
         ev_.error(item.span,
-                  assign_output_ ? "a body only computes: nothing can be placed in it"
-                                 : "a function only computes: nothing can be placed in it",
-                  assign_output_ ? "use let, var, if, for and outputs such as density = 1"
-                                 : "write def name(…) { … } without = for a template that places things");
+                  outputs_ ? "a body only computes: nothing can be placed in it"
+                           : "a function only computes: nothing can be placed in it",
+                  outputs_ ? "use let, var, if, for and outputs such as density = 1"
+                           : "write def name(…) { … } without = for a template that places things");
       if (returned) return returned;
     }
     ev_.report_unused(*scope);
@@ -81,7 +81,7 @@ class Steps {
   }
 
   std::optional<Value> result(const ReturnItem& item, Span span, const std::shared_ptr<Scope>& scope) {
-    if (!assign_output_) return ev_.evaluate(tree_, item.value, scope);
+    if (!outputs_) return ev_.evaluate(tree_, item.value, scope);
     ev_.error(span, "return belongs in a function", "a body sets outputs, for instance density = 1");
     return std::nullopt;
   }
@@ -107,8 +107,11 @@ class Steps {
     const Found found = find(assign.name.symbol, scope.get());
     if (found.binding && found.binding->kind == BindingKind::variable) {
       set(found, value, assign.name.span);
-    } else if (assign_output_) {
-      set_output(item, assign, value);
+    } else if (outputs_) {
+      if (is_output(ev_.text(assign.name.symbol)))
+        set_output(item, assign, value);
+      else
+        ev_.report_no_output(*outputs_, assign.name, variables(scope.get()));
     } else if (found.binding || scope->find(assign.name.symbol)) {
       const Binding* constant = found.binding ? found.binding : scope->find(assign.name.symbol);
       ev_.error(assign.name.span, fmt::format("'{}' cannot be changed here", ev_.text(assign.name.symbol)),
@@ -116,9 +119,33 @@ class Steps {
                                                         : "define it with var to change it",
                 {{constant->definition, "it is defined here"}});
     } else {
+      std::string help = did_you_mean(ev_.text(assign.name.symbol), variables(scope.get()));
+      if (help.empty()) help = fmt::format("write let {} = … to define it", ev_.text(assign.name.symbol));
       ev_.error(assign.name.span, fmt::format("nothing is named '{}' here", ev_.text(assign.name.symbol)),
-                fmt::format("write let {} = … to define it", ev_.text(assign.name.symbol)));
+                std::move(help));
     }
+  }
+
+  bool is_output(std::string_view name) const {
+    return std::find(outputs_->names.begin(), outputs_->names.end(), name) != outputs_->names.end();
+  }
+
+  // What may be set from here, the body's outputs first.
+  std::vector<std::string_view> settable(const Scope* scope) const {
+    std::vector<std::string_view> names = variables(scope);
+    if (outputs_) names.insert(names.begin(), outputs_->names.begin(), outputs_->names.end());
+    return names;
+  }
+
+  // Variables that can be set from here.
+  std::vector<std::string_view> variables(const Scope* scope) const {
+    std::vector<std::string_view> names;
+    for (; scope; scope = scope->parent.get()) {
+      for (const Binding& binding : scope->bindings)
+        if (binding.kind == BindingKind::variable) names.push_back(ev_.text(binding.symbol));
+      if (scope->assignments_end_here) break;
+    }
+    return names;
   }
 
   void set(const Found& found, const Value& value, Span span) {
@@ -143,7 +170,7 @@ class Steps {
 
   void set_output(const Item& item, const AssignItem& assign, const Value& value) {
     if (branches_.empty())
-      assign_output_(item, assign, value);
+      outputs_->assign(item, assign, value);
     else
       branches_.back()->outputs.push_back({&item, &assign, value});
   }
@@ -188,7 +215,7 @@ class Steps {
         const Found found = find(assign->name.symbol, scope.get());
         if (found.binding && found.binding->kind == BindingKind::variable)
           set(found, {}, assign->name.span);
-        else if (assign_output_)
+        else if (outputs_ && is_output(ev_.text(assign->name.symbol)))
           set_output(item, *assign, {});
       } else if (const auto* choice = std::get_if<IfItem>(&item.node)) {
         poison(choice->then_block, scope);
@@ -199,8 +226,13 @@ class Steps {
   }
 
   // Outputs that a block sets, by what is written: variables of its own or of `scope` are none.
+  // One that is misspelt, and told so, counts as what was meant.
+  struct SetOutput {
+    const AssignItem* assign;
+    std::string_view meant;
+  };
   void outputs_of(BlockId block, const Scope* scope, std::vector<SymbolId>& own,
-                  std::vector<const AssignItem*>& found) const {
+                  std::vector<SetOutput>& found) const {
     for (const ItemId id : tree_.list_of_items(tree_[block].items)) {
       const Item& item = tree_[id];
       if (const auto* var = std::get_if<VarItem>(&item.node)) own.push_back(var->name.symbol);
@@ -210,32 +242,33 @@ class Steps {
       const auto* assign = std::get_if<AssignItem>(&item.node);
       if (!assign || std::find(own.begin(), own.end(), assign->name.symbol) != own.end()) continue;
       const Found variable = find(assign->name.symbol, scope);
-      if (!variable.binding || variable.binding->kind != BindingKind::variable) found.push_back(assign);
+      if (variable.binding && variable.binding->kind == BindingKind::variable) continue;
+      const std::string_view name = ev_.text(assign->name.symbol);
+      const std::string_view meant = is_output(name) ? name : nearest(name, settable(scope));
+      if (!meant.empty()) found.push_back({assign, meant});
     }
   }
 
   // Reports outputs that only one of the branches sets.
   void compare_outputs(const IfItem& item, const Scope* scope) {
-    std::vector<const AssignItem*> in_then, in_else;
+    std::vector<SetOutput> in_then, in_else;
     std::vector<SymbolId> own;
     outputs_of(item.then_block, scope, own, in_then);
     own.clear();
     if (item.else_block.valid()) outputs_of(item.else_block, scope, own, in_else);
-    const auto lacks = [](const std::vector<const AssignItem*>& list, SymbolId symbol) {
-      return std::none_of(list.begin(), list.end(),
-                          [&](const AssignItem* a) { return a->name.symbol == symbol; });
+    const auto lacks = [](const std::vector<SetOutput>& list, std::string_view name) {
+      return std::none_of(list.begin(), list.end(), [&](const SetOutput& set) { return set.meant == name; });
     };
     for (const auto& [here, there] : {std::pair{&in_then, &in_else}, std::pair{&in_else, &in_then}})
-      for (const AssignItem* assign : *here)
-        if (lacks(*there, assign->name.symbol))
-          ev_.error(assign->name.span,
-                    fmt::format("'{}' is set in one branch only", ev_.text(assign->name.symbol)),
+      for (const auto& [assign, meant] : *here)
+        if (is_output(ev_.text(assign->name.symbol)) && lacks(*there, meant))
+          ev_.error(assign->name.span, fmt::format("'{}' is set in one branch only", meant),
                     item.else_block.valid() ? "set it in the other branch too"
                                             : "add an else branch that sets it too");
   }
 
   std::optional<Value> run_choice(const IfItem& item, Span span, const std::shared_ptr<Scope>& scope) {
-    if (assign_output_) compare_outputs(item, scope.get());
+    if (outputs_) compare_outputs(item, scope.get());
     const Value condition = ev_.evaluate_as(Type::boolean, tree_, item.condition, scope, "'if'");
     if (condition.is_error()) {
       poison(item.then_block, scope);
@@ -314,17 +347,28 @@ class Steps {
 
   Evaluator& ev_;
   const SyntaxTree& tree_;
-  const Evaluator::AssignOutput& assign_output_;
+  const Evaluator::Outputs* outputs_;  // null in functions
   std::vector<Changes*> branches_;
   std::vector<PartialReturn> partial_returns_;
 };
 
 }  // namespace
 
+void Evaluator::report_no_output(const Outputs& outputs, const Name& name,
+                                 const std::vector<std::string_view>& variables) {
+  const std::string_view word = text(name.symbol);
+  std::vector<std::string_view> candidates = outputs.names;
+  candidates.insert(candidates.end(), variables.begin(), variables.end());
+  const std::string guess = did_you_mean(word, candidates);
+  error(name.span, fmt::format("'{}' has no output '{}'", outputs.owner, word),
+        guess.empty()
+            ? fmt::format("outputs are {}; let {} = … defines a name", fmt::join(outputs.names, ", "), word)
+            : guess);
+}
+
 std::optional<Value> Evaluator::run_steps(const SyntaxTree& tree, BlockId block,
-                                          const std::shared_ptr<Scope>& scope,
-                                          const AssignOutput& assign_output) {
-  return Steps(*this, tree, assign_output).run_all(block, scope);
+                                          const std::shared_ptr<Scope>& scope, const Outputs* outputs) {
+  return Steps(*this, tree, outputs).run_all(block, scope);
 }
 
 }  // namespace tyndall::eval

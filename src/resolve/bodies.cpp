@@ -68,9 +68,13 @@ void check_unused_bodies(Run& run) {
     if (run.bodies.compiled.contains(definition.item)) continue;
     const auto parameters = definition.tree->list_of_parameters(definition.item->parameters);
     const auto* body = definition.value.get<eval::Body>();
-    if (!body || !std::all_of(parameters.begin(), parameters.end(),
-                              [](const syntax::Parameter& p) { return p.default_value.valid(); }))
+    if (!body) continue;
+    if (!std::all_of(parameters.begin(), parameters.end(),
+                     [](const syntax::Parameter& p) { return p.default_value.valid(); })) {
+      shader::check_outputs(run.context, *definition.tree, definition.item->body, definition.item->kind,
+                            run.symbols.text(definition.item->name.symbol));
       continue;
+    }
     const auto with_defaults = run.evaluator.bound(*body, definition.item->name.span);
     if (!with_defaults) continue;
     switch (definition.item->kind) {

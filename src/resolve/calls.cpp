@@ -20,7 +20,8 @@ void report_no_template(Run& run, const Site& site, const syntax::NameExpr& name
   for (const eval::Scope* scope = site.scope.get(); scope; scope = scope->parent.get())
     for (const eval::Binding& binding : scope->bindings)
       if (binding.value.type == eval::Type::function) templates.push_back(run.symbols.text(binding.symbol));
-  run.diagnostics.error(span, fmt::format("no template '{}'", word), did_you_mean(word, templates));
+  report_undefined(run, name.symbol, span, fmt::format("no template '{}'", word),
+                   did_you_mean(word, templates));
 }
 
 // The value that is called; an error value after reporting that there is none.

@@ -59,6 +59,7 @@ const syntax::SyntaxTree* tree_of(Run& run, const fs::path& path, const std::str
   const syntax::TokenList tokens = syntax::lex(run.sources, source, run.diagnostics);
   known->second = std::make_unique<syntax::SyntaxTree>(
       syntax::parse(run.sources, source, tokens, run.symbols, run.diagnostics));
+  note_unread(run, *known->second);
   return known->second.get();
 }
 
@@ -70,8 +71,10 @@ void run_include(Run& run, const Site& site, const syntax::IncludeItem& include)
   const Span span = (*site.tree)[include.file].span;
   const eval::Value name =
       run.evaluator.evaluate_as(eval::Type::string, *site.tree, include.file, site.scope, "include");
-  if (name.is_error()) return;
+  // Names that nothing defines may be in a file that could not be read.
+  if (name.is_error()) return void(run.context.unread.file = true);
   const auto path = find_file(run, run.sources[site.tree->source].name(), name.as_string());
+  run.context.unread.file |= !path;
   if (!path)
     return run.diagnostics.error(span, fmt::format("no file '{}'", name.as_string()),
                                  run.options.include_directories.empty()
@@ -93,6 +96,8 @@ void run_include(Run& run, const Site& site, const syntax::IncludeItem& include)
     inside.tree = tree;
     run_block(run, inside, tree->file);
     run.includes.open.pop_back();
+  } else {
+    run.context.unread.file = true;
   }
   run.diagnostics.pop_context();
 }

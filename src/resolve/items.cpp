@@ -43,7 +43,7 @@ void run_if(Run& run, const Site& site, const syntax::IfItem& item) {
   const syntax::BlockId taken = condition.as_bool() ? item.then_block : item.else_block;
   const syntax::BlockId other = condition.as_bool() ? item.else_block : item.then_block;
   if (taken.valid()) run_inner_block(run, site, taken);
-  if (other.valid()) pass_over(run, *site.tree, other);
+  if (other.valid()) pass_over(run, site, other);
 }
 
 void run_definition(Run& run, const Site& site, const syntax::Item& item) {
@@ -75,6 +75,11 @@ bool Run::may_repeat(double rounds, Span span) {
   return false;
 }
 
+void report_undefined(Run& run, syntax::SymbolId symbol, Span span, std::string message, std::string help) {
+  if (!run.context.unread.may_define(symbol))
+    run.diagnostics.error_once(span, std::move(message), std::move(help));
+}
+
 void run_block(Run& run, const Site& site, syntax::BlockId block, Parameters parameters) {
   const syntax::Block& b = (*site.tree)[block];
   if (run.block_depth >= max_block_depth) {
@@ -83,6 +88,7 @@ void run_block(Run& run, const Site& site, syntax::BlockId block, Parameters par
     return;
   }
   ++run.block_depth;
+  if (site.tree == run.main) run.blocks_run[block.index] = true;
   for (const syntax::ItemId id : site.tree->list_of_items(b.items)) {
     if (run.finished()) break;
     const syntax::Item& item = (*site.tree)[id];
@@ -138,7 +144,7 @@ void run_for(Run& run, const Site& site, const syntax::ForItem& loop) {
     run_block(run, inside, loop.body);
     if (i == 0) report_unused(run, *inside.scope);
   }
-  if (rounds == 0) pass_over(run, *site.tree, loop.body);
+  if (rounds == 0) pass_over(run, site, loop.body, {}, loop.name.symbol);
 }
 
 void run_item(Run& run, const Site& site, const syntax::Item& item) {
@@ -151,12 +157,12 @@ void run_item(Run& run, const Site& site, const syntax::Item& item) {
                  [&](const syntax::VarItem&) { run_definition(run, site, item); },
                  [&](const syntax::FunctionItem&) { run_definition(run, site, item); },
                  [&](const syntax::TemplateItem& form) {
-                   pass_over(run, *site.tree, form.body);
+                   pass_over(run, site, form.body, form.parameters);
                    run_definition(run, site, item);
                  },
                  [&](const syntax::BodyItem&) { run_definition(run, site, item); },
                  [&](const syntax::ObjectItem& object) {
-                   pass_over(run, *site.tree, object.body);
+                   pass_over(run, site, object.body);
                    run_definition(run, site, item);
                  },
                  [&](const syntax::AssignItem& assign) { run_assign(run, site, assign); },

@@ -114,8 +114,8 @@ void run_place(Run& run, const Site& site, const syntax::PlaceItem& place) {
           place.name.span,
           fmt::format("'{}' is {}, not an object", name, eval::describe(binding->value.type)),
           "an object is `object name { … }`", {{binding->definition, "defined here"}});
-    return run.diagnostics.error(place.name.span, fmt::format("no object '{}'", name),
-                                 did_you_mean(name, objects));
+    return report_undefined(run, place.name.symbol, place.name.span, fmt::format("no object '{}'", name),
+                            did_you_mean(name, objects));
   }
   Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, place.block, PlaceParameters::keyword,
                 place.name.span);

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
+#include <iterator>
 #include <limits>
 
 #include "base/overloaded.h"
@@ -67,6 +70,10 @@ std::string_view wanted(Quantity quantity) {
 
 }  // namespace
 
+std::string no_parameter(std::string_view name, std::string_view keyword) {
+  return fmt::format("no parameter '{}' in '{}'", name, keyword);
+}
+
 Reader::Reader(eval::Evaluator& evaluator, const Schemas& schemas, ReaderSite site, syntax::BlockId block,
                std::string_view keyword, Span header, Others others)
     : evaluator_(evaluator),
@@ -116,9 +123,11 @@ void Reader::report(const scene::Problems& problems) {
   for (const scene::Problem& problem : problems) error(place(problem.field), problem.message, problem.help);
 }
 
-void Reader::report_missing(const FieldInfo& info) {
-  error(header_, fmt::format("'{}' needs '{}'", keyword_, info.name),
-        fmt::format("add `{}: …`: {}", info.name, info.documentation));
+void Reader::report_missing(const Missing& missing) {
+  if (missing.names.size() == 1)
+    return error(header_, fmt::format("'{}' needs '{}'", keyword_, missing.names[0]),
+                 fmt::format("add `{}: …`: {}", missing.names[0], missing.documentation));
+  error(header_, fmt::format("{}: give exactly one for '{}'", fmt::join(missing.names, " and "), keyword_));
 }
 
 void Reader::report_one_of(const std::vector<std::string_view>& names) {
@@ -131,7 +140,6 @@ void Reader::report_one_of(const std::vector<std::string_view>& names) {
     last = given->item->name.span;
   }
   ok_ = false;
-  if (!first.valid()) return error(header_, fmt::format("{}: give exactly one for '{}'", list, keyword_));
   diagnostics_.error(last, fmt::format("{}: give exactly one for '{}'", list, keyword_), {},
                      {{first, "the other is given here"}});
 }
@@ -156,17 +164,34 @@ void Reader::not_yet(std::string_view name, std::string_view word) {
   }
 }
 
+void Reader::report_unknown(const Given& given, std::string_view hint) {
+  // Those that are missing first, then those not given yet.
+  std::vector<std::string_view> candidates, known;
+  for (const Missing& missing : missing_)
+    candidates.insert(candidates.end(), missing.names.begin(), missing.names.end());
+  for (std::size_t i = 0; i < known_count_; ++i) known_[i](known);
+  const auto is_given = [&](std::string_view name) { return find(symbols_.intern(name)) != nullptr; };
+  std::copy_if(known.begin(), known.end(), std::back_inserter(candidates), std::not_fn(is_given));
+  std::copy_if(known.begin(), known.end(), std::back_inserter(candidates), is_given);
+  const std::string_view name = symbols_.text(given.item->name.symbol);
+  const std::string_view meant = nearest(name, candidates);
+  std::erase_if(missing_, [&](const Missing& missing) {
+    return std::find(missing.names.begin(), missing.names.end(), meant) != missing.names.end();
+  });
+  std::string help = did_you_mean(name, candidates);
+  if (help.empty()) help = hint;
+  if (help.empty() && !known.empty()) help = fmt::format("it has: {}", fmt::join(known, ", "));
+  error(given.item->name.span, no_parameter(name, keyword_), std::move(help));
+  // Its value is not wanted, but what is wrong in it is.
+  if (!std::holds_alternative<syntax::NameExpr>((*site_.tree)[given.item->value].node))
+    evaluator_.check_names(*site_.tree, given.item->value, *site_.scope);
+}
+
 void Reader::finish(std::string_view hint) {
-  for (const Given& given : given_) {
-    if (given.taken) continue;
-    std::vector<std::string_view> known;
-    for (std::size_t i = 0; i < known_count_; ++i) known_[i](known);
-    const std::string_view name = symbols_.text(given.item->name.symbol);
-    std::string help = did_you_mean(name, known);
-    if (help.empty()) help = hint;
-    if (help.empty() && !known.empty()) help = fmt::format("it has: {}", fmt::join(known, ", "));
-    error(given.item->name.span, fmt::format("no parameter '{}' in '{}'", name, keyword_), std::move(help));
-  }
+  for (const Given& given : given_)
+    if (!given.taken) report_unknown(given, hint);
+  for (const Missing& missing : missing_) report_missing(missing);
+  if (ok_) report(problems_);
 }
 
 void Reader::error_unit(const FieldInfo& info, const eval::Value& value, Span span) {

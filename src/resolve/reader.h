@@ -12,6 +12,7 @@
 #include "base/fields.h"
 #include "eval/evaluator.h"
 #include "resolve/parameters.h"
+#include "resolve/statements.h"
 #include "scene/scene.h"
 #include "scene/validate.h"
 #include "syntax/tree.h"
@@ -50,6 +51,9 @@ struct ReaderSite {
   const std::shared_ptr<eval::Scope>* scope = nullptr;
 };
 
+// The message for a parameter that a thing does not have.
+std::string no_parameter(std::string_view name, std::string_view keyword);
+
 // The parameters of one block: read<T>() takes those of T, finish() reports what nothing took.
 class Reader {
  public:
@@ -63,7 +67,7 @@ class Reader {
   // The struct, with defaults for what is not given or was wrong (see ok()).
   template <class T>
   T read();
-  // The same, and the problems of scene::validate shown at their parameters.
+  // The same; finish() shows the problems of scene::validate at their parameters.
   template <class T>
   T read_valid();
 
@@ -71,7 +75,8 @@ class Reader {
   void not_yet(std::initializer_list<std::string_view> names);
   // The same for one word as the value of a parameter: `step: auto`.
   void not_yet(std::string_view name, std::string_view word);
-  // Reports what nothing took. `hint` is shown when no name resembles it.
+  // Reports what nothing took, and what is missing: a name that resembles a missing one is taken for it, and
+  // reported alone. `hint` is shown when no name resembles it.
   void finish(std::string_view hint = {});
   // Shows problems at their parameters (at the header when the parameter was not given).
   void report(const scene::Problems& problems);
@@ -118,15 +123,15 @@ class Reader {
     to = value;
   }
   bool to_whole(std::string_view name, double number, Span span, double least, double greatest);
-  void report_missing(const FieldInfo& info);
-  // A group of which exactly one must be given: nothing, or more than one was.
+  // A required parameter, or a group of which exactly one must be given, and none was.
+  struct Missing {
+    std::vector<std::string_view> names;
+    std::string_view documentation;  // empty for a group
+  };
+  void report_missing(const Missing& missing);
+  // More than one of a group was given.
   void report_one_of(const std::vector<std::string_view>& names);
-
-  using ListNames = void (*)(std::vector<std::string_view>&);
-  template <class T>
-  static void list_names(std::vector<std::string_view>& names) {
-    T::fields([&](auto, const FieldInfo& info) { names.push_back(info.name); });
-  }
+  void report_unknown(const Given& given, std::string_view hint);
 
   eval::Evaluator& evaluator_;
   const Schemas& schemas_;
@@ -138,6 +143,8 @@ class Reader {
   std::vector<Given> given_;
   std::array<ListNames, 3> known_{};  // of the structs read so far: candidates for "did you mean"
   std::size_t known_count_ = 0;
+  std::vector<Missing> missing_;
+  scene::Problems problems_;
   bool ok_ = true;
 };
 
@@ -156,7 +163,7 @@ T Reader::read() {
       if (given) ++group_given;
     }
     if (!given) {
-      if (info.presence == Presence::required) report_missing(info);
+      if (info.presence == Presence::required) missing_.push_back({{info.name}, info.documentation});
     } else if (!given->taken) {
       given->taken = true;
       read_value(info, *given, result.*member);
@@ -167,15 +174,19 @@ T Reader::read() {
     T::fields([&](auto, const FieldInfo& info) {
       if (info.one_of == group) names.push_back(info.name);
     });
-    report_one_of(names);
+    if (group_given > 1)
+      report_one_of(names);
+    else
+      missing_.push_back({std::move(names), {}});
   }
+  ok_ = ok_ && missing_.empty();
   return result;
 }
 
 template <class T>
 T Reader::read_valid() {
   const T result = read<T>();
-  if (ok_) report(scene::validate(result));
+  if (ok_) problems_ = scene::validate(result);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "resolve/animation.h"
 #include "resolve/checks.h"
+#include "resolve/never_run.h"
 #include "resolve/run.h"
 #include "syntax/parser.h"
 
@@ -63,7 +64,17 @@ Run::Run(const syntax::SyntaxTree& tree, Sources& sources_, syntax::Symbols& sym
               .main_source = tree.source},
       evaluator(context),
       schemas(symbols_),
-      statements(symbols_) {}
+      statements(symbols_),
+      blocks_run(tree.blocks.size()) {
+  note_unread(*this, tree);
+}
+
+void note_unread(Run& run, const syntax::SyntaxTree& tree) {
+  eval::Unread& unread = run.context.unread;
+  unread.definitions.insert(unread.definitions.end(), tree.unread_definitions.begin(),
+                            tree.unread_definitions.end());
+  unread.file = unread.file || tree.gave_up;
+}
 
 scene::Scene resolve(const syntax::SyntaxTree& tree, Sources& sources, syntax::Symbols& symbols,
                      const Options& options, Diagnostics& diagnostics) {
@@ -72,6 +83,7 @@ scene::Scene resolve(const syntax::SyntaxTree& tree, Sources& sources, syntax::S
   settle_time(run);
   run_main_file(run);
   if (!run.finished()) {
+    check_never_run(run);
     check_unused_bodies(run);
     report_unused(run, *run.file_scope);
     check_overrides(run);

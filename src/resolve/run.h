@@ -106,7 +106,8 @@ struct Run {
 
   int template_depth = 0, block_depth = 0;
   long repetitions = 0;
-  bool stopped = false;  // a limit was met: nothing more is run
+  bool stopped = false;          // a limit was met: nothing more is run
+  std::vector<bool> blocks_run;  // of the main file, by number: met once at least
 
   std::vector<scene::ShapeInstance>& shapes() { return building ? building->things.shapes : scene.shapes; }
   std::vector<scene::Volume>& volumes() { return building ? building->things.volumes : scene.volumes; }
@@ -122,6 +123,13 @@ struct Run {
 // Whether a block's parameters (`transform: …`) have been read already, or have no business there.
 enum class Parameters : bool { refused, read };
 
+// Reports, once for all uses, a name that is defined nowhere; silent when it may be in what could not be
+// read.
+void report_undefined(Run& run, syntax::SymbolId symbol, Span span, std::string message, std::string help);
+
+// A thing as a value that is no shape.
+void report_no_shape(Run& run, const syntax::ThingExpr& thing);
+
 // Runs the items of a block where `site` stands, in order.
 void run_block(Run& run, const Site& site, syntax::BlockId block,
                Parameters parameters = Parameters::refused);
@@ -135,6 +143,9 @@ void run_for(Run& run, const Site& site, const syntax::ForItem& loop);
 void run_call(Run& run, const Site& site, const syntax::CallItem& call);
 void run_place(Run& run, const Site& site, const syntax::PlaceItem& place);
 void run_include(Run& run, const Site& site, const syntax::IncludeItem& include);
+
+// Remembers what could not be read of a file.
+void note_unread(Run& run, const syntax::SyntaxTree& tree);
 
 // The name of the main file among the included ones.
 std::string main_file_key(const Run& run);

@@ -41,12 +41,7 @@ std::optional<PlacedShape> read_closed_shape(Run& run, const Thing& in) {
   const std::string_view word = run.symbols.text(thing.keyword.symbol);
   const Statement* row = run.statements.find(thing.keyword.symbol, thing.kind.symbol);
   if (!row || (row->run && !row->read_shape)) {
-    std::vector<std::string_view> shapes;
-    for (const Statement& s : run.statements.rows())
-      if (s.read_shape) shapes.push_back(s.name);
-    std::string help = did_you_mean(word, shapes);
-    if (help.empty()) help = fmt::format("closed shapes are: {}", closed_shapes(run));
-    run.diagnostics.error(thing.keyword.span, fmt::format("'{}' is not a shape", word), std::move(help));
+    report_no_shape(run, thing);
     return std::nullopt;
   }
   if (!row->run) {
@@ -70,6 +65,16 @@ std::optional<PlacedShape> read_closed_shape(Run& run, const Thing& in) {
 }
 
 }  // namespace
+
+void report_no_shape(Run& run, const syntax::ThingExpr& thing) {
+  const std::string_view word = run.symbols.text(thing.keyword.symbol);
+  std::vector<std::string_view> shapes;
+  for (const Statement& s : run.statements.rows())
+    if (s.read_shape) shapes.push_back(s.name);
+  std::string help = did_you_mean(word, shapes);
+  if (help.empty()) help = fmt::format("closed shapes are: {}", closed_shapes(run));
+  run.diagnostics.error(thing.keyword.span, fmt::format("'{}' is not a shape", word), std::move(help));
+}
 
 std::optional<Transform> placed(Reader& reader, const Site& site, const Transform& transform) {
   const Transform world_from_thing = site.world_from_local * transform;

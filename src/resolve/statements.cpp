@@ -19,21 +19,33 @@ scene::Shape read_shape(Run&, Reader& reader) {
 
 template <class T>
 Statement shape(bool closed) {
-  return {T::keyword, {}, {}, run_shape, read_shape<T>, closed};
+  return {T::keyword,
+          {},
+          {},
+          run_shape,
+          read_shape<T>,
+          closed,
+          list_names<T, ShapePlacement>,
+          list_names<T, Placement>};
 }
 template <class T>
 Statement light() {
-  return {T::keyword, {}, {}, run_light<T>};
+  return {T::keyword, {}, {}, run_light<T>, nullptr, false, list_names<T, Placement>};
 }
 template <class T>
 Statement camera() {
-  return {T::keyword, {}, {}, run_camera<T>};
+  return {T::keyword, {}, {}, run_camera<T>, nullptr, false, list_names<T, Placement>};
+}
+
+template <class T>
+Statement statement(decltype(Statement::run) run) {
+  return {T::keyword, {}, {}, run, nullptr, false, list_names<T>};
 }
 
 std::vector<Statement> all_statements() {
   return {
-      {RenderParameters::keyword, {}, {}, run_render},
-      {AnimationParameters::keyword, {}, {}, run_animation},
+      statement<RenderParameters>(run_render),
+      statement<AnimationParameters>(run_animation),
       camera<scene::PerspectiveCamera>(),
       camera<scene::OrthographicCamera>(),
       camera<scene::SphericalCamera>(),
@@ -51,11 +63,18 @@ std::vector<Statement> all_statements() {
       shape<scene::Quad>(false),
       shape<scene::Disk>(false),
       shape<scene::Cylinder>(true),
-      {scene::Mesh::keyword, {}, {}, run_shape, read_mesh, true},
+      {scene::Mesh::keyword,
+       {},
+       {},
+       run_shape,
+       read_mesh,
+       true,
+       list_names<MeshParameters, ShapePlacement>,
+       list_names<MeshParameters, Placement>},
       {"curves"},
       {"gltf"},
-      {VolumeParameters::keyword, {}, {}, run_volume},
-      {GroupParameters::keyword, {}, {}, run_group},
+      statement<VolumeParameters>(run_volume),
+      statement<GroupParameters>(run_group),
   };
 }
 
@@ -85,7 +104,9 @@ std::string help_for(Run& run, const Site& site, const syntax::ThingItem& thing)
   return did_you_mean(word, words);
 }
 
-void report_unknown(Run& run, const Site& site, const syntax::ThingItem& thing) {
+}  // namespace
+
+void report_unknown_statement(Run& run, const Site& site, const syntax::ThingItem& thing) {
   const std::string_view word = run.symbols.text(thing.keyword.symbol);
   const std::vector<std::string_view> kinds = kinds_of(run.statements, word);
   if (!kinds.empty()) {
@@ -102,11 +123,9 @@ void report_unknown(Run& run, const Site& site, const syntax::ThingItem& thing) 
   if (thing.kind.symbol.valid() && run.statements.find(thing.keyword.symbol, {}))
     return run.diagnostics.error(thing.kind.span, fmt::format("'{}' has no kinds", word),
                                  fmt::format("write `{} {{ … }}`", word));
-  run.diagnostics.error(thing.keyword.span, fmt::format("no statement '{}'", word),
-                        help_for(run, site, thing));
+  run.diagnostics.error_once(thing.keyword.span, fmt::format("no statement '{}'", word),
+                             help_for(run, site, thing));
 }
-
-}  // namespace
 
 Statements::Statements(syntax::Symbols& symbols) : rows_(all_statements()) {
   for (Statement& row : rows_) {
@@ -128,7 +147,7 @@ Span header(const syntax::ThingItem& thing) {
 
 void run_thing(Run& run, const Site& site, const syntax::ThingItem& thing) {
   const Statement* row = run.statements.find(thing.keyword.symbol, thing.kind.symbol);
-  if (!row) return report_unknown(run, site, thing);
+  if (!row) return report_unknown_statement(run, site, thing);
   if (!row->run)
     return run.diagnostics.error(header(thing), fmt::format("'{}' is not available yet", row->name));
   if (thing.file.valid())

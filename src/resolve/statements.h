@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/fields.h"
 #include "eval/value.h"
 #include "scene/scene.h"
 #include "syntax/tree.h"
@@ -14,6 +15,13 @@ struct Run;
 struct Site;
 class Reader;
 
+// Appends the names of parameters.
+using ListNames = void (*)(std::vector<std::string_view>&);
+template <class... T>
+void list_names(std::vector<std::string_view>& names) {
+  (T::fields([&](auto, const FieldInfo& info) { names.push_back(info.name); }), ...);
+}
+
 struct Statement {
   std::string_view name;               // "light point", "sphere"
   syntax::SymbolId keyword{}, kind{};  // kind is invalid for statements of one word
@@ -23,6 +31,8 @@ struct Statement {
   // Shapes only: reads the shape's own parameters.
   scene::Shape (*read_shape)(Run& run, Reader& reader) = nullptr;
   bool closed = false;  // shapes only: has an inside
+  // The statement's parameters, and those of a shape where it stands as a value; null where `run` is.
+  ListNames list_names = nullptr, list_shape_names = nullptr;
 };
 
 class Statements {
@@ -39,6 +49,8 @@ class Statements {
 
 // Runs a scene statement, or says that there is none of that name.
 void run_thing(Run& run, const Site& site, const syntax::ThingItem& thing);
+
+void report_unknown_statement(Run& run, const Site& site, const syntax::ThingItem& thing);
 
 // The rows' functions.
 void run_render(Run&, const Site&, const syntax::ThingItem&, const Statement&);

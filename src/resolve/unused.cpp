@@ -15,7 +15,7 @@ void read_names(Run& run) {
   PassedOver& passed = run.passed_over;
   const syntax::SyntaxTree& tree = *run.main;
   std::vector<Span> spans;
-  for (const std::uint32_t block : passed.blocks) spans.push_back(tree.blocks[block].span);
+  for (const auto& [block, place] : passed.blocks) spans.push_back(tree.blocks[block].span);
   std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.begin < b.begin; });
   // Blocks are apart or inside one another: with the inner ones left out they stand in order.
   std::vector<Span> outer;
@@ -36,8 +36,10 @@ void read_names(Run& run) {
 
 }  // namespace
 
-void pass_over(Run& run, const syntax::SyntaxTree& tree, syntax::BlockId block) {
-  if (&tree == run.main) run.passed_over.blocks.insert(block.index);
+void pass_over(Run& run, const Site& site, syntax::BlockId block, syntax::ListRef parameters,
+               syntax::SymbolId variable) {
+  if (site.tree == run.main)
+    run.passed_over.blocks.try_emplace(block.index, PassedOver::Place{site.scope, parameters, variable});
 }
 
 void report_unused(Run& run, const eval::Scope& scope) {

@@ -9,6 +9,10 @@
 
 namespace tyndall::shader {
 
+// Reports what a body sets that is no output, without running it: for one that nothing gives its arguments.
+void check_outputs(eval::Context& context, const syntax::SyntaxTree& tree, syntax::BlockId body,
+                   syntax::BodyKind kind, std::string_view name);
+
 struct Options {
   bool fold = true;  // off: constants stay computations, for tests that compare
 };

@@ -32,6 +32,8 @@ constexpr double default_base_color = 0.8;
 
 }  // namespace
 
+std::span<const OutputRule> material_outputs() { return rules; }
+
 std::optional<scene::Material> compile_material(eval::Context& context, const eval::Body& body,
                                                 const Options& options) {
   eval::Evaluator in_scene(context);

@@ -168,6 +168,8 @@ class MediumCompiler {
 
 }  // namespace
 
+std::span<const OutputRule> medium_outputs() { return rules; }
+
 std::optional<scene::Medium> compile_medium(eval::Context& context, const eval::Body& body,
                                             const Options& options) {
   eval::Evaluator in_scene(context);

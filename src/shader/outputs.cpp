@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/check.h"
+
 namespace tyndall::shader {
 
 using eval::Value;
@@ -29,24 +31,61 @@ static bool in_range(eval::Evaluator& evaluator, const OutputRule& rule, const V
   return true;
 }
 
+namespace {
+
+std::vector<std::string_view> names_of(std::span<const OutputRule> rules) {
+  std::vector<std::string_view> names;
+  for (const OutputRule& rule : rules) names.push_back(rule.name);
+  return names;
+}
+
+// Reports what a block sets that is no output, nor a variable of the body.
+void check_block(eval::Evaluator& ev, const syntax::SyntaxTree& tree, syntax::BlockId block,
+                 const eval::Evaluator::Outputs& outputs, std::vector<std::string_view>& variables) {
+  const std::size_t outside = variables.size();
+  for (const syntax::ItemId id : tree.list_of_items(tree[block].items)) {
+    const auto& node = tree[id].node;
+    if (const auto* var = std::get_if<syntax::VarItem>(&node)) variables.push_back(ev.text(var->name.symbol));
+    if (const auto* loop = std::get_if<syntax::ForItem>(&node))
+      check_block(ev, tree, loop->body, outputs, variables);
+    if (const auto* choice = std::get_if<syntax::IfItem>(&node)) {
+      check_block(ev, tree, choice->then_block, outputs, variables);
+      if (choice->else_block.valid()) check_block(ev, tree, choice->else_block, outputs, variables);
+    }
+    const auto* assign = std::get_if<syntax::AssignItem>(&node);
+    if (!assign) continue;
+    const auto is = [&](std::string_view name) { return name == ev.text(assign->name.symbol); };
+    if (std::none_of(variables.begin(), variables.end(), is) &&
+        std::none_of(outputs.names.begin(), outputs.names.end(), is))
+      ev.report_no_output(outputs, assign->name, variables);
+  }
+  variables.resize(outside);
+}
+
+}  // namespace
+
+void check_outputs(eval::Context& context, const syntax::SyntaxTree& tree, syntax::BlockId body,
+                   syntax::BodyKind kind, std::string_view name) {
+  eval::Evaluator ev(context);
+  eval::Evaluator::Outputs outputs;
+  outputs.owner = name;
+  outputs.names = names_of(kind == syntax::BodyKind::medium ? medium_outputs() : material_outputs());
+  std::vector<std::string_view> variables;
+  check_block(ev, tree, body, outputs, variables);
+}
+
 std::vector<std::optional<Output>> run_body(eval::Evaluator& evaluator, const eval::Body& body,
                                             std::span<const OutputRule> rules, bool& failed) {
   std::vector<std::optional<Output>> outputs(rules.size());
   const int errors = evaluator.errors_reported();
-  const auto set = [&](const syntax::Item& item, const syntax::AssignItem& assign, const Value& value) {
+  eval::Evaluator::Outputs settable;
+  settable.owner = body.name;
+  settable.names = names_of(rules);
+  settable.assign = [&](const syntax::Item& item, const syntax::AssignItem& assign, const Value& value) {
     const std::string_view name = evaluator.text(assign.name.symbol);
     const auto rule =
         std::find_if(rules.begin(), rules.end(), [&](const OutputRule& r) { return r.name == name; });
-    if (rule == rules.end()) {
-      std::vector<std::string_view> names;
-      for (const OutputRule& r : rules) names.push_back(r.name);
-      const std::string guess = did_you_mean(name, names);
-      evaluator.error(assign.name.span, fmt::format("'{}' has no output '{}'", body.name, name),
-                      guess.empty() ? fmt::format("outputs are {}; let {} = … defines a name",
-                                                  fmt::join(names, ", "), name)
-                                    : guess);
-      return;
-    }
+    CHECK(rule != rules.end());
     std::optional<Output>& output = outputs[static_cast<std::size_t>(rule - rules.begin())];
     if (output) {
       evaluator.error(assign.name.span, fmt::format("'{}' is set twice", name),
@@ -62,7 +101,7 @@ std::vector<std::optional<Output>> run_body(eval::Evaluator& evaluator, const ev
   };
   auto scope = std::make_shared<eval::Scope>();
   scope->parent = body.scope;
-  evaluator.run_steps(*body.tree, body.block, scope, set);
+  evaluator.run_steps(*body.tree, body.block, scope, &settable);
   // An output may also be poisoned by a mistake that was reported elsewhere.
   failed |= evaluator.errors_reported() > errors;
   for (const std::optional<Output>& output : outputs) failed |= output && output->value.is_error();

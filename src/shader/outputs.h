@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct OutputRule {
   double highest = 0;
   std::string_view range;  // as in messages: "in [0, 1]"
 };
+
+// What media and materials may set.
+std::span<const OutputRule> medium_outputs();
+std::span<const OutputRule> material_outputs();
 
 // One output as the body set it.
 struct Output {

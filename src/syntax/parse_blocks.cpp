@@ -30,6 +30,7 @@ SyntaxTree Parser::file() {
   std::vector<ItemId> list;
   items(list, std::nullopt);
   tree_.file = add_block(0, list, 0);
+  tree_.gave_up = gave_up_;
   return std::move(tree_);
 }
 
@@ -91,12 +92,27 @@ void Parser::items(std::vector<ItemId>& out, const std::optional<Span>& open) {
     if (at(TokenKind::end_of_file) || (open && ends_everything())) break;
     const std::uint32_t first = at_;
     const std::optional<ItemId> id = item();
-    if (id) out.push_back(*id);
+    if (id)
+      out.push_back(*id);
+    else
+      note_unread_definition(first);
     if (panic_) synchronize(first);
     if (at_ == first) take();  // never stand still
     after_item(id);
   }
   if (open) never_closed(*open);
+}
+
+// A definition that could not be read has a name all the same: its uses are no mistakes.
+void Parser::note_unread_definition(std::uint32_t first_token) {
+  static constexpr TokenKind defining[] = {TokenKind::kw_let,      TokenKind::kw_var,
+                                           TokenKind::kw_def,      TokenKind::kw_medium,
+                                           TokenKind::kw_material, TokenKind::kw_object};
+  if (std::find(std::begin(defining), std::end(defining), tokens_.tokens[first_token].kind) ==
+      std::end(defining))
+    return;
+  const Token& name = tokens_.tokens[first_token + 1];  // there is the end of the file at least
+  if (name.kind == TokenKind::name) tree_.unread_definitions.push_back(symbols_.intern(text(name)));
 }
 
 // Missing braces show at the end of the file only; indentation tells where one is likely to be missing.

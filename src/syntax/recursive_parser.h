@@ -42,6 +42,7 @@ class Parser {
   BlockId add_block(std::uint32_t first_token, const std::vector<ItemId>& list, std::uint32_t outer_tallest);
   bool open_block(std::string_view owner);
   void never_closed(const Span& open);
+  void note_unread_definition(std::uint32_t first_token);
   std::size_t indentation(const Span& place) const;
 
   // parse_items.cpp

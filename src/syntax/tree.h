@@ -248,6 +248,9 @@ struct SyntaxTree {
   std::vector<ItemId> item_list;
   std::vector<StringValue> strings;
   BlockId file;  // the whole file
+  // Definitions of which no more than the name could be read, and whether reading was given up: told already.
+  std::vector<SymbolId> unread_definitions;
+  bool gave_up = false;
 
   const Expr& operator[](ExprId id) const { return exprs[id.index]; }
   const Item& operator[](ItemId id) const { return items[id.index]; }
