@@ -8,6 +8,7 @@
 
 #include "base/vec.h"
 #include "image/image.h"
+#include "render/aov.h"
 
 namespace tyndall::render {
 
@@ -18,6 +19,7 @@ class FixedSum {
   void add(double value) {
     sum_ += static_cast<__int128>(std::clamp(value, -largest_addend, largest_addend) * 0x1p64);
   }
+  void add(const FixedSum& other) { sum_ += other.sum_; }
   double value() const { return static_cast<double>(sum_) * 0x1p-64; }
 
  private:
@@ -25,29 +27,52 @@ class FixedSum {
   __int128 sum_ = 0;
 };
 
+// Samples are summed in one group, or in four of independent random numbers, from which errors are estimated:
+// sample s in group s mod 4. Groups 0 and 1 are the first half of a pixel's samples, 2 and 3 the second.
+inline constexpr int error_groups = 4;
+
 class Film {
  public:
-  Film(int width, int height);
+  // `groups` is 1 or error_groups. Only the outputs in `aovs` take memory.
+  Film(int width, int height, int groups = 1, AovSet aovs = {});
 
   int width() const { return width_; }
   int height() const { return height_; }
+  int groups() const { return groups_; }
+  const AovSet& aovs() const { return aovs_; }
   // Adds one sample's radiance (finite: bad samples are counted by the caller and add as black).
-  void add(int x, int y, const Rgb& radiance);
-  std::uint32_t samples(int x, int y) const { return pixels_[index(x, y)].samples; }
-  // Mean radiance; black where nothing was sampled.
+  void add(int x, int y, const Rgb& radiance, int group = 0);
+  // Adds what the same sample recorded for the outputs beside the picture.
+  void add(int x, int y, const AovSample& sample);
+
+  std::uint32_t samples(int x, int y) const;
+  // Mean radiance; black where nothing was sampled. Of groups: the mean of the two halves' means, which does
+  // not depend on how many samples each got (adaptive.h).
   Rgb mean(int x, int y) const;
-  image::Image image() const;  // channels R G B
+  // Mean of one group; black where nothing was sampled.
+  Vec3d group_mean(int x, int y, int group) const;
+  // Estimated variance of mean(): from the spread of the groups, unbiased when they are of one size; 0 with
+  // one group.
+  Vec3d variance(int x, int y) const;
+  // Channels R G B, then those of the outputs: "depth", "normal.X", "albedo.R", …
+  image::Image image() const;
 
  private:
-  struct Pixel {
+  struct Sums {
     FixedSum r, g, b;
     std::uint32_t samples = 0;
   };
-  static_assert(sizeof(Pixel) <= 64);
+  static_assert(sizeof(Sums) <= 64);
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
+  const Sums& sums(int x, int y, int group) const { return sums_[index(x, y) * groups_ + group]; }
+  Vec3d aov_value(const AovInfo& info, std::size_t plane, int x, int y) const;
 
-  int width_, height_;
-  std::vector<Pixel> pixels_;
+  int width_, height_, groups_;
+  AovSet aovs_;
+  std::vector<Sums> sums_;
+  // A plane after another: each channel of each recorded output; after those, with depth, how many samples
+  // met a surface.
+  std::vector<FixedSum> planes_;
 };
 
 }  // namespace tyndall::render

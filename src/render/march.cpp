@@ -257,6 +257,13 @@ std::uint32_t March::segment_at(double t) const {
   return after == t0.begin() ? 0 : static_cast<std::uint32_t>(after - t0.begin() - 1);
 }
 
+double March::optical_depth() const {
+  double sum = 0;
+  for (int c = 0; c < extinction_channels; ++c)
+    for (std::uint32_t i = 0; i < count; ++i) sum += sigma_t[c][i] * dt[i];
+  return sum / extinction_channels;
+}
+
 Rgb March::transmittance_at(std::uint32_t i, double t) const {
   Vec3d out;
   for (int c = 0; c < extinction_channels; ++c)

@@ -58,6 +58,8 @@ struct March {
   bool scatters() const { return !scattering_stretches.empty(); }
   Rgb end_transmittance() const { return rgb(transmittance, extinction_channels, count); }
   Rgb total_scattered() const { return rgb(scattered, channels, count); }
+  // Of the whole ray, mean of the channels; does not underflow as transmittance does.
+  double optical_depth() const;
   // The row of extinction and transmittance that serves channel c.
   int extinction_row(int c) const { return extinction_channels == 1 ? 0 : c; }
   // Output k of a block at a segment that it holds.

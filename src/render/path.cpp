@@ -21,28 +21,32 @@ using compile::CompiledScene;
 using compile::Ray;
 using compile::RayKind;
 
-Sampler sampler_for(const CompiledScene& world, const CameraSample& s) {
-  return {world.scene.settings.seed, static_cast<std::uint32_t>(world.scene.frame),
-          static_cast<std::uint32_t>(s.x), static_cast<std::uint32_t>(s.y),
-          static_cast<std::uint32_t>(s.sample)};
+// Sample s of g groups is sample s / g of group s mod g; each group is a scrambling of its own.
+Sampler sampler_for(const CompiledScene& world, const PathSettings& settings, const CameraSample& s) {
+  const auto groups = static_cast<std::uint64_t>(settings.groups);
+  const std::uint64_t seed = world.scene.settings.seed;
+  return {groups == 1 ? seed : hash_bits(seed, 1 + s.sample % groups),
+          static_cast<std::uint32_t>(world.scene.frame), static_cast<std::uint32_t>(s.x),
+          static_cast<std::uint32_t>(s.y), static_cast<std::uint32_t>(s.sample / groups)};
 }
 
 class PathTracer {
  public:
   PathTracer(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
-             std::span<const CameraSample> samples, Worker& worker, std::span<Rgb> radiance,
-             std::string* trace)
+             std::span<const CameraSample> samples, Worker& worker, const PathOutputs& outputs)
       : world_(world),
         camera_(camera),
         settings_(settings),
         samples_(samples),
         worker_(worker),
-        radiance_(radiance),
-        trace_(trace) {}
+        radiance_(outputs.radiance),
+        aovs_(outputs.aovs),
+        trace_(outputs.trace) {}
 
   // All paths go one ray on at a time: rays, one march of all, what each meets, one batch of shadow rays.
   void run() {
     std::fill(radiance_.begin(), radiance_.end(), Rgb{});
+    std::fill(aovs_.begin(), aovs_.end(), AovSample{});
     while (start_paths(), active_ > 0) {
       worker_.march_requests.clear();
       for (std::size_t i = 0; i < active_; ++i) trace_ray(slot(i));
@@ -68,7 +72,7 @@ class PathTracer {
     while (active_ < paths_together && started_ < samples_.size()) {
       const CameraSample& s = samples_[started_];
       PathSlot& path = new_slot();
-      path.sampler = sampler_for(world_, s);
+      path.sampler = sampler_for(world_, settings_, s);
       path.sample = static_cast<std::uint32_t>(started_++);
       const SobolPoint u = path.sampler->point(decision(Decision::pixel, 0, 0), 4);
       path.state = {};
@@ -104,7 +108,6 @@ class PathTracer {
     PathState& s = path_->state;
     const March& m = path_->march();
     const auto& hit = path_->hit;
-    worker_.shadows.set_sample(path_->sample);
     if (trace_)
       say("{}depth {} ray from ({:.6g}, {:.6g}, {:.6g}) along ({:.6g}, {:.6g}, {:.6g}): {} segments, "
           "transmittance {:.6g}, throughput {:.6g}\n",
@@ -113,7 +116,9 @@ class PathTracer {
           s.ray.direction.y, s.ray.direction.z, m.count, luminance(m.end_transmittance()),
           luminance(s.throughput));
 
-    add(s.throughput * m.emitted, "emission of media");
+    const LightPart part = s.part(s.depth);
+    add(s.throughput * m.emitted, s.depth == 0 && s.branch == 0 ? LightPart::volume_emission : part,
+        "emission of media");
     const Rgb at_end = s.throughput * m.end_transmittance();
     std::optional<SurfacePoint> surface;
     if (!hit) {
@@ -122,9 +127,10 @@ class PathTracer {
       gather_light(s, *hit, at_end);
     } else {
       surface = evaluate_surface(world_, *hit, s.ray.direction, worker_);
-      add(at_end * surface->emission, "emission of a surface");
+      add(at_end * surface->emission, part, "emission of a surface");
     }
 
+    if (!aovs_.empty()) record(s, m, surface);
     if (s.depth > static_cast<std::uint32_t>(settings_.bounces)) {
       worker_.statistics.cut_paths += m.scatters() || surface;
       worker_.statistics.cut_throughput += max_component(s.throughput * m.total_scattered() +
@@ -136,9 +142,30 @@ class PathTracer {
     return scatter(s, m, path_->light(), surface, at_end, continues);
   }
 
+  // What the outputs beside the picture keep of a ray.
+  void record(const PathState& s, const March& m, const std::optional<SurfacePoint>& surface) {
+    AovSample& out = aovs_[path_->sample];
+    out.cost += 1 + m.count;
+    if (s.depth > 0) return;
+    out.transmittance = m.end_transmittance();
+    out.optical_depth = m.optical_depth();
+    out.albedo = m.total_scattered();
+    out.met_surface = path_->hit.has_value();
+    if (path_->hit) {
+      out.depth = path_->hit->t;
+      const Vec3d& n = path_->hit->normal;
+      out.normal = Vec3f(dot(n, s.ray.direction) > 0 ? -n : n);
+    }
+    if (surface) out.albedo += out.transmittance * surface->reflectance;
+  }
+
   void trace_shadows() {
     for (const ShadowRay& ray : worker_.shadows.trace(world_, settings_.transmittance, worker_)) {
       radiance_[ray.sample] += ray.contribution;
+      if (!aovs_.empty()) {
+        aovs_[ray.sample].add(ray.part, ray.contribution);
+        aovs_[ray.sample].cost += 1 + ray.segments;
+      }
       if (trace_ && !is_black(ray.contribution))
         say("  + ({:.6g}, {:.6g}, {:.6g}) direct light\n", ray.contribution.x, ray.contribution.y,
             ray.contribution.z);
@@ -189,6 +216,7 @@ class PathTracer {
   void light_volume(const PathState& s, LightStrategies& strategies, bool continues,
                     double volume_probability) {
     if (strategies.empty()) return;
+    worker_.shadows.set_sample(path_->sample, s.depth == 0 ? LightPart::volume_direct : s.part(s.depth + 1));
     const int samples = s.depth == 0 ? settings_.light_samples : 1;
     for (int k = 0; k < samples; ++k) {
       const std::uint32_t shadow_seed = sampler().bits(id(Decision::shadow, s), k);
@@ -201,6 +229,7 @@ class PathTracer {
     LightChoice& lights = worker_.surface_lights;
     lights.set(world_, surface.position, surface.normal, 0, 0);
     if (lights.empty()) return;
+    worker_.shadows.set_sample(path_->sample, s.part(s.depth + 1));
     const int samples = s.depth == 0 ? settings_.light_samples : 1;
     for (int k = 0; k < samples; ++k) {
       const std::uint32_t shadow_seed = sampler().bits(id(Decision::shadow, s), 0x10000 + k);
@@ -223,6 +252,7 @@ class PathTracer {
 
     s.throughput *= m.sigma_s_at(segment) * m.transmittance_at(segment, t) *
                     worker_.phase.eval(cosine_complement) * static_cast<float>(1 / (pdf_t * pdf_phase));
+    s.first_in_volume |= s.depth == 0;
     const Vec3d x = s.ray.origin + s.ray.direction * t;
     const Vec3f w =
         optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[3]);
@@ -265,14 +295,15 @@ class PathTracer {
     if (!world_.features.environment && !world_.features.distant_discs) return;
     for (std::uint32_t i = 0; i < world_.lights.size(); ++i) {
       const Rgb radiance = optics::radiance_from_infinity(world_.lights[i], s.ray.direction);
-      if (!is_black(radiance)) add(at_end * radiance * weight(s, i, {}, {}), "a light at infinity");
+      if (!is_black(radiance))
+        add(at_end * radiance * weight(s, i, {}, {}), s.part(s.depth), "a light at infinity");
     }
   }
 
   void gather_light(const PathState& s, const compile::SurfaceHit& hit, const Rgb& at_end) {
     const Rgb radiance = optics::emitted(world_.lights[hit.light], s.ray.direction, hit.normal);
     if (!is_black(radiance))
-      add(at_end * radiance * weight(s, hit.light, hit.position, hit.normal), "a light met");
+      add(at_end * radiance * weight(s, hit.light, hit.position, hit.normal), s.part(s.depth), "a light met");
   }
 
   // MIS weight of meeting a light by the path's own continuation, against sampling it directly.
@@ -316,8 +347,9 @@ class PathTracer {
   SobolPoint many(Decision d, const PathState& s, int k, int count) const {
     return sampler().point(id(d, s), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(count));
   }
-  void add(const Rgb& radiance, std::string_view what) {
+  void add(const Rgb& radiance, LightPart part, std::string_view what) {
     radiance_[path_->sample] += radiance;
+    if (!aovs_.empty()) aovs_[path_->sample].add(part, radiance);
     if (trace_ && !is_black(radiance))
       say("  + ({:.6g}, {:.6g}, {:.6g}) {}\n", radiance.x, radiance.y, radiance.z, what);
   }
@@ -332,6 +364,7 @@ class PathTracer {
   std::span<const CameraSample> samples_;
   Worker& worker_;
   std::span<Rgb> radiance_;
+  std::span<AovSample> aovs_;
   std::string* trace_;
   std::size_t active_ = 0, started_ = 0;  // slots in use: the first; samples begun: the first
   std::vector<bool> ended_;               // of the slots that advanced in this round
@@ -350,16 +383,16 @@ PathSettings path_settings(const CompiledScene& world, const RenderOptions& opti
   settings.transmittance = options.transmittance;
   settings.light_samples = world.scene.settings.light_samples;
   settings.bounces = world.scene.settings.bounces;
+  if (options.error || options.aovs.has(Aov::variance)) settings.groups = error_groups;
   settings.gathers_after_last =
       f.area_lights || f.distant_discs || f.environment || f.medium_emission || f.surface_emission;
   return settings;
 }
 
 void trace_paths(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
-                 std::span<const CameraSample> samples, Worker& worker, std::span<Rgb> radiance,
-                 std::string* trace) {
-  CHECK_EQ(samples.size(), radiance.size());
-  PathTracer(world, camera, settings, samples, worker, radiance, trace).run();
+                 std::span<const CameraSample> samples, Worker& worker, const PathOutputs& outputs) {
+  CHECK_EQ(samples.size(), outputs.radiance.size());
+  PathTracer(world, camera, settings, samples, worker, outputs).run();
 }
 
 }  // namespace tyndall::render

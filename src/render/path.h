@@ -18,17 +18,23 @@ struct PathSettings {
   Transmittance transmittance = Transmittance::march;
   int light_samples = 1;
   int bounces = 0;
+  int groups = 1;  // of samples with independent random numbers (film.h)
   // Rays after the last bounce are traced only when they could meet light that is not sampled directly, or
   // that competes with it by MIS.
   bool gathers_after_last = false;
 };
 PathSettings path_settings(const compile::CompiledScene& world, const RenderOptions& options);
 
+// Where the results of camera samples go, one a sample.
+struct PathOutputs {
+  std::span<Rgb> radiance;
+  std::span<AovSample> aovs = {};  // as many, or none when nothing beside the picture is wanted
+  std::string* trace = nullptr;    // gets a line of text for each event
+};
+
 // Radiance along each camera sample. Paths advance together, ray by ray, so that their marches fill whole
-// batches; what comes out for a sample depends on none of the others. With `trace`, appends a line of text
-// for each event.
+// batches; what comes out for a sample depends on none of the others.
 void trace_paths(const compile::CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
-                 std::span<const CameraSample> samples, Worker& worker, std::span<Rgb> radiance,
-                 std::string* trace = nullptr);
+                 std::span<const CameraSample> samples, Worker& worker, const PathOutputs& outputs);
 
 }  // namespace tyndall::render

@@ -6,6 +6,7 @@
 
 #include "base/sampler.h"
 #include "compile/compiled_scene.h"
+#include "render/aov.h"
 #include "render/direct_light.h"
 #include "render/march.h"
 
@@ -27,7 +28,14 @@ struct PathState {
   Rgb throughput{1};
   std::uint32_t depth = 0;  // scatterings so far
   std::uint32_t branch = 0;
+  bool first_in_volume = false;  // the first scattering was in a medium
   PathOrigin origin;
+
+  // The part of the picture that light belongs to which arrives here after being scattered so often.
+  LightPart part(std::uint32_t scatterings) const {
+    if (!first_in_volume) return LightPart::other;
+    return scatterings == 1 ? LightPart::volume_direct : LightPart::volume_indirect;
+  }
 };
 
 // A path on its way. Slots are reused, with the memory of their marches.

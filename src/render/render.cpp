@@ -8,6 +8,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "render/adaptive.h"
 #include "render/path.h"
 #include "render/worker.h"
 
@@ -19,10 +20,6 @@ using compile::CompiledScene;
 using Clock = std::chrono::steady_clock;
 
 constexpr int tile_size = 16;
-
-struct Tile {
-  int x0, y0, x1, y1;
-};
 
 std::vector<Tile> tiles_of(const RenderOptions::Crop& crop) {
   std::vector<Tile> tiles;
@@ -56,85 +53,160 @@ void sum_into(Statistics& total, const Worker& worker) {
   if (bad && (!total.first_bad_sample || *bad < *total.first_bad_sample)) total.first_bad_sample = bad;
 }
 
+// Most samples a pixel when only an error or a time says when to end.
+constexpr int most_samples_for_a_goal = 1 << 16;
+
+int most_samples(const CompiledScene& world, const RenderOptions& options) {
+  if (options.sample_count) return *options.sample_count;
+  return options.error || options.time_limit ? most_samples_for_a_goal : world.scene.settings.samples;
+}
+
 // One render's shared state.
 class Render {
  public:
-  Render(const CompiledScene& world, const RenderOptions& options)
+  Render(const CompiledScene& world, const RenderOptions& options, const Progress& progress)
       : world_(world),
         options_(options),
+        progress_(progress),
         settings_(path_settings(world, options)),
         camera_(world),
-        film_(world.scene.settings.width, world.scene.settings.height) {
+        film_(world.scene.settings.width, world.scene.settings.height, settings_.groups, options.aovs),
+        tiles_(tiles_of(options.crop.value_or(RenderOptions::Crop{0, 0, film_.width(), film_.height()}))),
+        most_samples_(most_samples(world, options)) {
     for (int i = 0; i < worker_count(options.threads); ++i) workers_.push_back(std::make_unique<Worker>());
+    for (const Tile& tile : tiles_) {
+      CHECK_LE(0, tile.x0);
+      CHECK_LE(0, tile.y0);
+      CHECK_LE(tile.x1, film_.width());
+      CHECK_LE(tile.y1, film_.height());
+      pixels_ += static_cast<std::uint64_t>(tile.pixels());
+    }
   }
 
-  RenderResult run(const Progress& progress) {
-    const RenderOptions::Crop crop =
-        options_.crop.value_or(RenderOptions::Crop{0, 0, film_.width(), film_.height()});
-    CHECK_LE(0, crop.x0);
-    CHECK_LE(0, crop.y0);
-    CHECK_LE(crop.x1, film_.width());
-    CHECK_LE(crop.y1, film_.height());
-    const std::vector<Tile> tiles = tiles_of(crop);
-    const int count = options_.sample_count.value_or(world_.scene.settings.samples);
-    const std::uint64_t total =
-        std::uint64_t(std::max(0, crop.x1 - crop.x0)) * std::uint64_t(std::max(0, crop.y1 - crop.y0)) * count;
-
-    for (int done = 0; done < count && !stopped();) {
-      const int length = pass_length(done, count - done);
-      parallel_for(tiles.size(), options_.threads, [&](std::size_t i, int worker) {
-        if (stopped()) return;
-        render_tile(tiles[i], options_.first_sample + done, length, *workers_[worker]);
-        const std::uint64_t tile_samples =
-            std::uint64_t(tiles[i].x1 - tiles[i].x0) * std::uint64_t(tiles[i].y1 - tiles[i].y0) * length;
-        report(progress, samples_done_.fetch_add(tile_samples) + tile_samples, total);
-      });
-      done += length;
-    }
-    return finish();
+  RenderResult run() {
+    if (options_.error)
+      run_adaptive();
+    else
+      run_uniform();
+    return {std::move(film_), statistics()};
   }
 
  private:
   bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
 
-  void render_tile(const Tile& tile, int first_sample, int length, Worker& worker) {
-    std::vector<CameraSample>& samples = worker.tile_samples;
-    samples.clear();
+  // Passes over the whole picture, the same samples for every pixel.
+  void run_uniform() {
+    fraction_scale_ = 1 / (static_cast<double>(pixels_) * most_samples_);
+    for (int done = 0; done < most_samples_ && !stopped();) {
+      const int length = affordable(pass_length(done, most_samples_ - done));
+      if (length == 0) break;
+      const auto first = static_cast<std::uint64_t>(options_.first_sample + done);
+      render_pass([&](std::size_t i, std::vector<CameraSample>& samples) {
+        add_samples(tiles_[i], samples, length, [&](int k) { return first + static_cast<std::uint64_t>(k); });
+      });
+      done += length;
+      if (done < most_samples_) end_pass();
+    }
+  }
+
+  // As many samples as a pass can take within the time limit, judged by the passes before; at least one in
+  // all.
+  int affordable(int length) {
+    const std::uint64_t done = samples_done_.load();
+    if (!options_.time_limit || done == 0) return length;
+    const double left = *options_.time_limit - seconds();
+    const double one = seconds() / static_cast<double>(done) * static_cast<double>(pixels_);
+    const int affordable = static_cast<int>(std::clamp(left / one, 0.0, static_cast<double>(length)));
+    out_of_time_ = affordable < length;
+    return affordable;
+  }
+
+  // Passes in which each half of each tile takes as many samples as the plan says.
+  void run_adaptive() {
+    AdaptivePlan plan(tiles_.size(), *options_.error, most_samples_);
+    while (!plan.done() && !stopped()) {
+      out_of_time_ = options_.time_limit && seconds() >= *options_.time_limit;
+      if (out_of_time_) break;
+      render_pass([&](std::size_t i, std::vector<CameraSample>& samples) {
+        for (int half = 0; half < 2; ++half) {
+          const SampleRun run = plan.run(i, half);
+          add_samples(tiles_[i], samples, run.count,
+                      [&](int k) { return sample_of_half(half, run.first + k); });
+        }
+      });
+      if (stopped()) break;
+      plan.finish_pass(film_, tiles_);
+      estimated_error_ = plan.estimated_error();
+      fraction_scale_ = plan.fraction_done() / static_cast<double>(samples_done_.load());
+      if (!plan.done()) end_pass();
+    }
+  }
+
+  template <class SampleNumber>
+  static void add_samples(const Tile& tile, std::vector<CameraSample>& samples, int count,
+                          SampleNumber&& number) {
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x)
-        for (int s = first_sample; s < first_sample + length; ++s)
-          samples.push_back({x, y, static_cast<std::uint64_t>(s)});
+        for (int k = 0; k < count; ++k) samples.push_back({x, y, number(k)});
+  }
+
+  // Renders what list(tile, samples) asks for.
+  template <class List>
+  void render_pass(List&& list) {
+    parallel_for(tiles_.size(), options_.threads, [&](std::size_t i, int w) {
+      if (stopped()) return;
+      Worker& worker = *workers_[w];
+      worker.tile_samples.clear();
+      list(i, worker.tile_samples);
+      if (worker.tile_samples.empty()) return;
+      render_samples(worker);
+      report(samples_done_.fetch_add(worker.tile_samples.size()) + worker.tile_samples.size());
+    });
+  }
+
+  void render_samples(Worker& worker) {
+    const std::vector<CameraSample>& samples = worker.tile_samples;
     worker.tile_radiance.resize(samples.size());
-    trace_paths(world_, camera_, settings_, samples, worker, worker.tile_radiance);
-    for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], worker.tile_radiance[i], worker);
+    worker.tile_aovs.resize(options_.aovs.recorded() ? samples.size() : 0);
+    trace_paths(world_, camera_, settings_, samples, worker, {worker.tile_radiance, worker.tile_aovs});
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      add(samples[i], worker.tile_radiance[i], worker);
+      if (!worker.tile_aovs.empty()) film_.add(samples[i].x, samples[i].y, worker.tile_aovs[i]);
+    }
   }
 
   void add(const CameraSample& s, const Rgb& radiance, Worker& worker) {
+    const int group = static_cast<int>(s.sample % static_cast<std::uint64_t>(settings_.groups));
     if (all_finite(radiance)) {
-      film_.add(s.x, s.y, radiance);
+      film_.add(s.x, s.y, radiance, group);
       return;
     }
-    film_.add(s.x, s.y, {});
+    film_.add(s.x, s.y, Rgb{}, group);
     ++worker.statistics.bad_samples;
     const Statistics::BadSample bad{s.sample, s.y, s.x};
     auto& first = worker.statistics.first_bad_sample;
     if (!first || bad < *first) first = bad;
   }
 
-  void report(const Progress& progress, std::uint64_t done, std::uint64_t total) {
-    if (!progress.report) return;
+  void end_pass() {
+    if (progress_.pass && !stopped()) progress_.pass(film_, statistics());
+  }
+
+  void report(std::uint64_t done) {
+    if (!progress_.report) return;
     const std::unique_lock lock(report_mutex_, std::try_to_lock);
     if (!lock) return;
     const Clock::time_point now = Clock::now();
     if (now - last_report_ < std::chrono::milliseconds(200)) return;
     last_report_ = now;
-    progress.report(static_cast<double>(done) / static_cast<double>(total),
-                    static_cast<double>(done) / seconds());
+    double fraction = static_cast<double>(done) * fraction_scale_;
+    if (options_.time_limit) fraction = std::max(fraction, seconds() / *options_.time_limit);
+    progress_.report(std::min(fraction, 1.0), static_cast<double>(done) / seconds());
   }
 
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  RenderResult finish() {
+  Statistics statistics() const {
     Statistics total;
     BadValueCounts bad_values;
     for (const auto& worker : workers_) {
@@ -145,16 +217,25 @@ class Render {
     total.bad_values = bad_values.list(world_.scene);
     total.seconds = seconds();
     total.stopped = stopped();
-    return {std::move(film_), std::move(total)};
+    total.out_of_time = out_of_time_;
+    total.estimated_error = estimated_error_;
+    return total;
   }
 
   const CompiledScene& world_;
   const RenderOptions& options_;
+  const Progress& progress_;
   PathSettings settings_;
   CameraRays camera_;
   Film film_;
+  std::vector<Tile> tiles_;
+  int most_samples_;
+  std::uint64_t pixels_ = 0;  // of the tiles
   std::vector<std::unique_ptr<Worker>> workers_;
   std::atomic<std::uint64_t> samples_done_{0};
+  double fraction_scale_ = 0;  // of the work, per sample
+  double estimated_error_ = 0;
+  bool out_of_time_ = false;
   std::mutex report_mutex_;
   Clock::time_point start_ = Clock::now(), last_report_ = start_;
 };
@@ -162,7 +243,7 @@ class Render {
 }  // namespace
 
 RenderResult render(const CompiledScene& world, const RenderOptions& options, const Progress& progress) {
-  return Render(world, options).run(progress);
+  return Render(world, options, progress).run();
 }
 
 Replay replay(const CompiledScene& world, const RenderOptions& options, int x, int y, std::uint64_t sample) {
@@ -170,8 +251,9 @@ Replay replay(const CompiledScene& world, const RenderOptions& options, int x, i
   Worker worker;
   Replay out;
   const CameraSample camera_sample{x, y, sample};
-  trace_paths(world, camera, path_settings(world, options), std::span(&camera_sample, 1), worker,
-              std::span(&out.radiance, 1), &out.trace);
+  PathOutputs outputs{std::span(&out.radiance, 1)};
+  outputs.trace = &out.trace;
+  trace_paths(world, camera, path_settings(world, options), std::span(&camera_sample, 1), worker, outputs);
   return out;
 }
 

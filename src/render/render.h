@@ -31,13 +31,20 @@ struct RenderOptions {
   };
   std::optional<Crop> crop;
   int first_sample = 0;
-  std::optional<int> sample_count;          // default: the scene's
+  std::optional<int> sample_count;  // default: the scene's
+  AovSet aovs;                      // outputs beside the picture
+  // Ends once the root of the picture's mean squared relative error is below this (adaptive.h), each block
+  // with as many samples as it needs; sample_count is then the most that a pixel gets.
+  std::optional<double> error;
+  std::optional<double> time_limit;         // [s]: ends, with whole passes, when it is over
   const std::atomic<bool>* stop = nullptr;  // set to end early with what there is
 };
 
 // Called at most a few times a second from one thread at a time; `fraction` in [0, 1].
 struct Progress {
-  std::function<void(double fraction, double samples_per_second)> report;
+  std::function<void(double fraction, double samples_per_second)> report = {};
+  // Called after each pass but the last, with the picture so far.
+  std::function<void(const Film& film, const struct Statistics& so_far)> pass = {};
 };
 
 struct BadValue {  // of a shader: what, how often, where
@@ -63,7 +70,9 @@ struct Statistics {
   std::optional<BadSample> first_bad_sample;  // the least: the same for any thread count
   std::vector<BadValue> bad_values;
   double seconds = 0;
-  bool stopped = false;
+  bool stopped = false;        // by RenderOptions::stop
+  bool out_of_time = false;    // ended by the time limit
+  double estimated_error = 0;  // with RenderOptions::error: of the picture, in its measure
 };
 
 struct RenderResult {

@@ -69,6 +69,7 @@ void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32
     if (method == Transmittance::jackknife) n = (n + 1) / 2;  // of two marches: as many in all
     for (std::uint32_t march = e.first; march < e.first + e.count; ++march)
       stays_.push_back({volume.medium, i.volume, ray, march, n, i.t0, length / n});
+    rays_[ray].segments += n * e.count;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compile/compiled_scene.h"
+#include "render/aov.h"
 #include "render/render.h"
 
 namespace tyndall::render {
@@ -19,16 +20,22 @@ struct ShadowRay {
   Rgb contribution;          // what arrives if nothing is in the way
   std::uint32_t seed = 0;    // of its march's jitter
   std::uint32_t sample = 0;  // whose light it is: the caller's number
+  LightPart part{};
+  std::uint32_t segments = 0;  // that were evaluated for it
 };
 
 // Shadow rays waiting to be traced together.
 class ShadowBatch {
  public:
   // The rays added from now on bring light to this sample.
-  void set_sample(std::uint32_t sample) { sample_ = sample; }
+  void set_sample(std::uint32_t sample, LightPart part) {
+    sample_ = sample;
+    part_ = part;
+  }
   void add(const ShadowRay& ray) {
     rays_.push_back(ray);
     rays_.back().sample = sample_;
+    rays_.back().part = part_;
   }
   // Leaves in each ray's contribution what arrives: times visibility and transmittance, which an unbiased
   // estimator may make negative.
@@ -52,6 +59,7 @@ class ShadowBatch {
   double transmittance(std::uint32_t ray, std::size_t channel, Transmittance method);
 
   std::uint32_t sample_ = 0;
+  LightPart part_{};
   std::vector<ShadowRay> rays_;
   std::vector<Estimates> estimates_;  // per ray
   std::vector<Vec3d> closed_;         // optical depth known in closed form, per ray

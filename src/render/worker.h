@@ -58,6 +58,7 @@ struct Worker {
   std::vector<float> material_outputs;
   std::vector<CameraSample> tile_samples;
   std::vector<Rgb> tile_radiance;
+  std::vector<AovSample> tile_aovs;
   std::vector<std::unique_ptr<PathSlot>> slots;  // of paths on their way
   std::vector<MarchRequest> march_requests;
   std::vector<MarchBatchEntry> march_batch;

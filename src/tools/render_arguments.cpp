@@ -25,6 +25,18 @@ const CLI::Validator not_below_zero(
     },
     "");
 
+// A finite number above 0, by itself.
+CLI::Validator positive_number(std::string_view wanted) {
+  return {[wanted](const std::string& text) {
+            double value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool good =
+                error == std::errc() && end == text.data() + text.size() && value > 0 && std::isfinite(value);
+            return good ? std::string() : fmt::format("wants {} above 0, not '{}'", wanted, text);
+          },
+          ""};
+}
+
 // Whole numbers with the separators between them and nothing else: "640x360" with "x", "0,0,8,8" with ",".
 bool read_numbers(std::string_view text, std::string_view separator, std::span<int> numbers) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -41,6 +53,13 @@ bool read_numbers(std::string_view text, std::string_view separator, std::span<i
 
 [[noreturn]] void refuse(const std::string& option, std::string_view wanted, const std::string& text) {
   throw CLI::ValidationError(option, fmt::format("wants {}, not '{}'", wanted, text));
+}
+
+std::string aov_names() {
+  std::string names;
+  for (const render::AovInfo& info : render::aov_infos())
+    names += (names.empty() ? "" : " ") + std::string(info.name);
+  return names;
 }
 
 void add_picture_options(CLI::App& command, RenderArguments& arguments) {
@@ -76,15 +95,7 @@ void add_quality_options(CLI::App& command, RenderArguments& arguments) {
       .add_option(
           "--step", arguments.step,
           "Length of a step through a volume in metres, in place of the scene's (a volume's own stays)")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            double value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const bool good =
-                error == std::errc() && end == text.data() + text.size() && value > 0 && std::isfinite(value);
-            return good ? std::string() : fmt::format("wants a length in metres above 0, not '{}'", text);
-          },
-          ""))
+      ->check(positive_number("a length in metres"))
       ->option_text("X");
   command
       .add_option("--light-samples", arguments.light_samples,
@@ -134,6 +145,40 @@ void add_method_options(CLI::App& command, RenderArguments& arguments) {
              "how distances for direct light are drawn");
   add_choice(command, "--transmittance", transmittances, arguments.transmittance,
              "how much of a light arrives through what has no closed form");
+}
+
+// Options that say when a rendering ends, and what it writes beside the picture.
+void add_goal_options(CLI::App& command, RenderArguments& arguments) {
+  CLI::Option* error =
+      command
+          .add_option("--error", arguments.error,
+                      "Sample each part of the picture until the root of its mean squared relative error is "
+                      "below this; --samples is then the most a pixel gets")
+          ->check(positive_number("a relative error"))
+          ->option_text("X");
+  CLI::Option* time_limit =
+      command
+          .add_option("--time-limit", arguments.time_limit,
+                      "End after so many seconds of rendering; --samples is then the most a pixel gets")
+          ->check(positive_number("seconds"))
+          ->option_text("S");
+  // Parts of a picture that are put together later must not each decide when they are good enough.
+  for (CLI::Option* goal : {error, time_limit})
+    for (const char* part : {"--crop", "--sample-range"}) goal->excludes(command.get_option(part));
+  command
+      .add_option_function<std::string>(
+          "--aov",
+          [&arguments](const std::string& text) {
+            for (std::size_t begin = 0; begin <= text.size();) {
+              const std::size_t end = std::min(text.find(',', begin), text.size());
+              const auto aov = render::aov_of_name(std::string_view(text).substr(begin, end - begin));
+              if (!aov) refuse("--aov", "names with commas between them: " + aov_names(), text);
+              arguments.aovs.add(*aov);
+              begin = end + 1;
+            }
+          },
+          "Write more channels into an .exr: " + aov_names())
+      ->option_text("A,B");
 }
 
 void add_running_options(CLI::App& command, RenderArguments& arguments) {
@@ -187,6 +232,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
   add_picture_options(command, arguments);
   add_quality_options(command, arguments);
   add_method_options(command, arguments);
+  add_goal_options(command, arguments);
   add_running_options(command, arguments);
 }
 
@@ -219,6 +265,8 @@ std::string replay_command(const RenderArguments& arguments, int x, int y, std::
   add("--light-samples", arguments.light_samples);
   add("--bounces", arguments.bounces);
   add("--seed", arguments.seed);
+  add("--error", arguments.error);
+  if (arguments.aovs.has(render::Aov::variance)) command += " --aov variance";
   const RenderArguments defaults;
   if (arguments.distance != defaults.distance)
     command += fmt::format(" --distance {}", name(arguments.distance));

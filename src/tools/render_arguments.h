@@ -25,6 +25,9 @@ struct RenderArguments {
   std::optional<double> step;  // [m]
   std::optional<std::uint64_t> seed, sample;
   std::optional<SampleRange> sample_range;
+  std::optional<double> error;       // root of the mean squared relative error
+  std::optional<double> time_limit;  // [s]
+  render::AovSet aovs;
   int threads = 0;
   render::Distance distance = render::RenderOptions{}.distance;
   render::Transmittance transmittance = render::RenderOptions{}.transmittance;

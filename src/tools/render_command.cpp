@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -69,6 +70,10 @@ render::RenderOptions options_of(const RenderArguments& arguments) {
   options.distance = arguments.distance;
   options.transmittance = arguments.transmittance;
   options.crop = arguments.crop;
+  options.aovs = arguments.aovs;
+  options.error = arguments.error;
+  options.time_limit = arguments.time_limit;
+  if (arguments.error || arguments.time_limit) options.sample_count = arguments.samples;
   if (arguments.sample_range) {
     options.first_sample = arguments.sample_range->first;
     options.sample_count = arguments.sample_range->last - arguments.sample_range->first + 1;
@@ -94,12 +99,42 @@ ExitStatus replay(const RenderArguments& arguments, const compile::CompiledScene
   return ExitStatus::done;
 }
 
+// The picture so far is written when a pass ends, but at most so often, and never for long [s].
+class PicturesSoFar {
+ public:
+  PicturesSoFar(const RenderArguments& arguments, const scene::Scene& scene, std::string scene_hash)
+      : arguments_(arguments), scene_(scene), scene_hash_(std::move(scene_hash)) {}
+
+  void write(const render::Film& film, const render::Statistics& statistics) {
+    if (statistics.seconds < next_) return;
+    Stopwatch watch;
+    image::Metadata metadata = metadata_of(arguments_, scene_, scene_hash_, statistics);
+    metadata.emplace_back("tyndall:unfinished", fmt::format("{} samples so far", statistics.samples));
+    // A failure is told at the end, when the whole picture is written.
+    image::write(arguments_.output, film.image(), metadata, exposure_of(scene_));
+    next_ = statistics.seconds + std::max(least_interval, 50 * watch.lap());
+  }
+
+ private:
+  static constexpr double least_interval = 10;
+  const RenderArguments& arguments_;
+  const scene::Scene& scene_;
+  std::string scene_hash_;
+  double next_ = least_interval;
+};
+
 render::RenderResult render_with_progress(const RenderArguments& arguments,
-                                          const compile::CompiledScene& world) {
+                                          const compile::CompiledScene& world,
+                                          const std::string& scene_hash) {
   render::RenderOptions options = options_of(arguments);
   options.stop = &catch_interrupts();
-  ProgressPrinter progress(progress_style(arguments));
-  return render::render(world, options, progress.callback());
+  ProgressPrinter printer(progress_style(arguments));
+  PicturesSoFar pictures(arguments, world.scene, scene_hash);
+  render::Progress progress = printer.callback();
+  progress.pass = [&pictures](const render::Film& film, const render::Statistics& so_far) {
+    pictures.write(film, so_far);
+  };
+  return render::render(world, options, progress);
 }
 
 // Writes the picture and the statistics, and says what is to be said of the run.
@@ -134,6 +169,8 @@ ExitStatus finish(const RenderArguments& arguments, LoadedScene& loaded, const s
 ExitStatus run_render(const RenderArguments& arguments) {
   if (arguments.output.empty() && !arguments.pixel)
     return misuse("render wants the picture to write: -o OUT.exr");
+  if (!arguments.aovs.empty() && !arguments.pixel && !arguments.output.ends_with(".exr"))
+    return misuse("--aov wants an .exr to write: other formats have no further channels");
   if (const std::string problem = output_problem(arguments); !problem.empty())
     return fail(arguments, problem);
 
@@ -150,7 +187,7 @@ ExitStatus run_render(const RenderArguments& arguments) {
   seconds.compile = watch.lap();
   if (arguments.pixel) return replay(arguments, world);
 
-  const render::RenderResult result = render_with_progress(arguments, world);
+  const render::RenderResult result = render_with_progress(arguments, world, scene_hash);
   seconds.render = watch.lap();
   return finish(arguments, *loaded, world.scene, scene_hash, result, seconds);
 }

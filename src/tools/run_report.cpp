@@ -16,6 +16,12 @@ SampleRange samples_of(const RenderArguments& arguments, const scene::Scene& sce
   return arguments.sample_range.value_or(SampleRange{0, scene.settings.samples - 1});
 }
 
+// Without --crop.
+double mean_samples(const scene::Scene& scene, const render::Statistics& statistics) {
+  return static_cast<double>(statistics.samples) /
+         (static_cast<double>(scene.settings.width) * scene.settings.height);
+}
+
 // Largest resident size of the process so far [bytes].
 std::uint64_t peak_memory() {
   rusage usage{};
@@ -58,12 +64,19 @@ image::Metadata metadata_of(const RenderArguments& arguments, const scene::Scene
     const auto& crop = *arguments.crop;
     settings += fmt::format(" crop={},{},{},{}", crop.x0, crop.y0, crop.x1, crop.y1);
   }
+  std::string count = fmt::format("{}..{}", samples.first, samples.last);
+  if (arguments.error) {
+    settings += fmt::format(" error={}", *arguments.error);
+    count = fmt::format("{} a pixel on average", mean_samples(scene, statistics));
+  } else if (arguments.time_limit) {
+    count = fmt::format("0..{}", static_cast<std::int64_t>(mean_samples(scene, statistics)) - 1);
+  }
   image::Metadata metadata{
       {"Software", "Tyndall " TYNDALL_VERSION},
       {"tyndall:version", TYNDALL_VERSION},
       {"tyndall:scene_hash", scene_hash},
       {"tyndall:frame", fmt::format("{}", scene.frame)},
-      {"tyndall:samples", fmt::format("{}..{}", samples.first, samples.last)},
+      {"tyndall:samples", count},
       {"tyndall:seed", fmt::format("{}", scene.settings.seed)},
       {"tyndall:settings", settings},
       {"tyndall:simd", vm::simd_name()},
@@ -109,6 +122,8 @@ nlohmann::json statistics_json(const scene::Scene& scene, const std::string& sce
       {"cut_throughput", s.cut_throughput},
       {"peak_memory_bytes", peak_memory()},
   };
+  if (s.estimated_error > 0) result["estimated_error"] = s.estimated_error;
+  if (s.out_of_time) result["out_of_time"] = true;
   if (s.first_bad_sample)
     result["first_bad_sample"] = {{"pixel", {s.first_bad_sample->x, s.first_bad_sample->y}},
                                   {"sample", s.first_bad_sample->sample}};
@@ -141,13 +156,21 @@ void report_bad_values(const RenderArguments& arguments, const render::Statistic
 
 std::string summary_line(const RenderArguments& arguments, const scene::Scene& scene,
                          const render::Statistics& statistics) {
-  const SampleRange samples = samples_of(arguments, scene);
   const double rate =
       statistics.seconds > 0 ? static_cast<double>(statistics.samples) / statistics.seconds : 0;
-  return fmt::format("{}: {}x{}, {} samples a pixel{} in {}, {}samples/s\n", arguments.output,
-                     scene.settings.width, scene.settings.height, samples.last - samples.first + 1,
-                     statistics.stopped ? " wanted, interrupted" : "", duration_text(statistics.seconds),
-                     count_text(rate));
+  std::string samples;
+  if (arguments.error || arguments.time_limit) {
+    samples = fmt::format("{:.3g} samples a pixel", mean_samples(scene, statistics));
+    if (statistics.estimated_error > 0)
+      samples += fmt::format(", estimated error {:.3g}", statistics.estimated_error);
+    if (statistics.out_of_time) samples += ", out of time";
+  } else {
+    const SampleRange range = samples_of(arguments, scene);
+    samples = fmt::format("{} samples a pixel{}", range.last - range.first + 1,
+                          statistics.stopped ? " wanted, interrupted" : "");
+  }
+  return fmt::format("{}: {}x{}, {} in {}, {}samples/s\n", arguments.output, scene.settings.width,
+                     scene.settings.height, samples, duration_text(statistics.seconds), count_text(rate));
 }
 
 }  // namespace tyndall::tools

@@ -1,6 +1,8 @@
 // `tyndall render`: pictures, options, statistics, interruption.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
@@ -148,6 +150,84 @@ TEST_F(Render, BadValuesOfAShaderAreToldAtItsLine) {
   const Outcome strict = tyndall({"render", scene, "-o", path("a.exr"), "--strict"});
   EXPECT_EQ(strict.status, 1);
   EXPECT_NE(strict.err.find(scene + ":5:3: error: 'cloud' gave"), std::string::npos) << strict.err;
+}
+
+// The outputs beside the picture do not change it, and the parts of its light are no more than the whole.
+TEST_F(Render, AovsStandBesideThePicture) {
+  const std::string scene = file("a.tyn", small_scene());
+  ASSERT_EQ(tyndall({"render", scene, "-o", path("plain.exr")}).status, 0);
+  ASSERT_EQ(tyndall({"render", scene, "-o", path("a.exr"), "--aov",
+                     "depth,normal,albedo,volume_direct,volume_indirect,volume_emission,transmittance,"
+                     "optical_depth,samples,cost"})
+                .status,
+            0);
+  const image::Image plain = picture(path("plain.exr")), image = picture(path("a.exr"));
+  const auto at = [&](int x, int y, const std::string& name) {
+    const auto found = std::find(image.channels.begin(), image.channels.end(), name);
+    EXPECT_NE(found, image.channels.end()) << name;
+    return image.at(x, y, static_cast<std::size_t>(found - image.channels.begin()));
+  };
+  double direct = 0, indirect = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      EXPECT_EQ(at(x, y, "R"), plain.at(x, y, 0));
+      EXPECT_EQ(at(x, y, "samples"), 2);
+      EXPECT_GE(at(x, y, "cost"), 1);
+      EXPECT_LE(at(x, y, "volume_direct.R") + at(x, y, "volume_indirect.R") + at(x, y, "volume_emission.R"),
+                at(x, y, "R") * 1.0001f + 1e-6f);
+      // By Jensen's inequality the mean transmittance is no less than that of the mean optical depth.
+      EXPECT_GE(at(x, y, "transmittance.G"), std::exp(-at(x, y, "optical_depth")) - 1e-5f);
+      EXPECT_LE(at(x, y, "albedo.G"), 1.0001f);
+      direct += at(x, y, "volume_direct.R");
+      indirect += at(x, y, "volume_indirect.R");
+    }
+  EXPECT_GT(direct, 0);
+  EXPECT_GT(indirect, 0);
+}
+
+TEST_F(Render, AnErrorIsReachedAndTold) {
+  const std::string scene = file("a.tyn", small_scene());
+  const Outcome outcome = tyndall({"render", scene, "-o", path("a.exr"), "--error", "0.15", "--stats",
+                                   path("a.json"), "--aov", "samples,variance"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto statistics = nlohmann::json::parse(read_file(path("a.json")));
+  EXPECT_LT(statistics["estimated_error"], 0.15);
+  EXPECT_GE(statistics["samples"], 64 * 16 * 12);
+  EXPECT_NE(outcome.err.find("estimated error 0."), std::string::npos) << outcome.err;
+  // Measured against many other samples, the error is what was asked for: relmse is its square.
+  ASSERT_EQ(tyndall({"render", scene, "-o", path("many.exr"), "--samples", "4096", "--seed", "5"}).status, 0);
+  image::Image some = picture(path("a.exr")), picture_only{some.width, some.height, {"R", "G", "B"}, {}};
+  for (std::size_t i = 0; i < some.pixels.size(); i += some.channels.size())
+    picture_only.pixels.insert(picture_only.pixels.end(),
+                               {some.pixels[i], some.pixels[i + 1], some.pixels[i + 2]});
+  const double error = std::sqrt(image::compare(picture_only, picture(path("many.exr"))).relative_mse);
+  EXPECT_LT(error, 1.3 * 0.15);
+  EXPECT_GT(error, 0.01);
+}
+
+TEST_F(Render, ATimeLimitEndsTheRender) {
+  const std::string scene = file("a.tyn", small_scene());
+  const Outcome outcome =
+      tyndall({"render", scene, "-o", path("a.exr"), "--time-limit", "0.5", "--stats", path("a.json")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto statistics = nlohmann::json::parse(read_file(path("a.json")));
+  EXPECT_TRUE(statistics["out_of_time"]);
+  EXPECT_EQ(statistics["samples"].get<int>() % (16 * 12), 0) << "whole passes";
+  EXPECT_GT(statistics["samples"], 16 * 12);
+}
+
+TEST_F(Render, GoalsAndPartsExcludeEachOther) {
+  const std::string scene = file("a.tyn", small_scene());
+  for (const std::string goal : {"--error", "--time-limit"}) {
+    EXPECT_EQ(tyndall({"render", scene, "-o", path("a.exr"), goal, "1", "--crop", "0,0,4,4"}).status, 2);
+    EXPECT_EQ(tyndall({"render", scene, "-o", path("a.exr"), goal, "1", "--sample-range", "0..3"}).status, 2);
+    EXPECT_EQ(tyndall({"render", scene, "-o", path("a.exr"), goal, "-1"}).status, 2);
+  }
+  const Outcome unknown = tyndall({"render", scene, "-o", path("a.exr"), "--aov", "depth,deep"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("optical_depth"), std::string::npos) << unknown.err;
+  EXPECT_EQ(tyndall({"render", scene, "-o", path("a.png"), "--aov", "depth"}).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
 }
 
 TEST_F(Render, CtrlCSavesWhatThereIs) {
