@@ -61,32 +61,20 @@ NodeId Builder::emit(Op op, std::span<const NodeId> operands, Span span, std::ui
     for (std::size_t k = 0; k < operands.size(); ++k) values[k] = constant_value(operands[k]);
     return constant(evaluate_lane(op, std::span(values.data(), operands.size()), count, immediate));
   }
-  if (const NodeId same = simplified(node); same.valid()) return same;
+  if (const std::optional<Simpler> found = simpler(nodes_, node)) {
+    if (found->constant) return constant(*found->constant);
+    if (found->value.valid()) return found->value;
+    std::array<NodeId, 3> instead = found->operands;
+    if (found->second) instead[1] = constant(*found->second);
+    return emit(found->op, std::span(instead).first(static_cast<std::size_t>(op_info(found->op).operands)),
+                span);
+  }
   if (is_commutative(op) && node.operands[1] < node.operands[0])
     std::swap(node.operands[0], node.operands[1]);
   return add(node);
 }
 
-// The value that the operation passes on unchanged, to the bit, whatever its other operands are.
-NodeId Builder::simplified(const Node& node) const {
-  const auto& [a, b, c, d] = node.operands;
-  const auto is = [&](NodeId id, float value) {
-    return is_constant(id) &&
-           std::bit_cast<std::uint32_t>(constant_value(id)) == std::bit_cast<std::uint32_t>(value);
-  };
-  if (node.op == Op::copy) return a;
-  if (node.op == Op::mul && is(b, 1.0f)) return a;
-  if (node.op == Op::mul && is(a, 1.0f)) return b;
-  if (node.op == Op::div && is(b, 1.0f)) return a;
-  if (node.op == Op::sub && is(b, 0.0f)) return a;
-  if (node.op == Op::neg && nodes_[a.index].kind == Node::Kind::operation && nodes_[a.index].op == Op::neg)
-    return nodes_[a.index].operands[0];
-  if (node.op == Op::select && b == c) return b;
-  if (node.op == Op::select && is_constant(a)) return constant_value(a) != 0 ? b : c;
-  return {};
-}
-
-bool Builder::is_constant(NodeId id) const { return nodes_[id.index].kind == Node::Kind::constant; }
+bool Builder::is_constant(NodeId id) const { return nodes_[id.index].is_constant(); }
 
 float Builder::constant_value(NodeId id) const {
   CHECK(is_constant(id));

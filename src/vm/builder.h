@@ -1,5 +1,6 @@
 // Builds a Program from a graph of values. Equal values are made once (value numbering), constant ones are
-// folded by running the kernels, unused ones are dropped, rows are reused once their last reader has run.
+// folded by running the kernels, unused ones are dropped, rows are reused once their last reader has run;
+// graph.h lists the other passes.
 #pragma once
 
 #include <array>
@@ -11,17 +12,17 @@
 #include <vector>
 
 #include "base/id.h"
+#include "vm/graph.h"
 #include "vm/op.h"
 #include "vm/program.h"
 
 namespace tyndall::vm {
 
-using NodeId = Id<struct NodeTag>;
-
 class Builder {
  public:
   // With folding off every operation is kept, for tests that compare the two. A constant is still a constant.
-  explicit Builder(bool fold = true) : fold_(fold) {}
+  // Without guards every lane computes everything.
+  explicit Builder(bool fold = true, bool guards = true) : fold_(fold), guards_(guards) {}
 
   NodeId constant(float value);
   NodeId input(Input input);
@@ -44,22 +45,9 @@ class Builder {
   std::optional<Program> finish(std::span<const NodeId> outputs) const;
 
  private:
-  struct Node {
-    enum class Kind : std::uint8_t { constant, input, operation } kind;
-    Op op{};
-    std::uint8_t count = 0;
-    bool uniform = false;
-    Input input{};
-    float value = 0;
-    std::uint32_t immediate = 0;
-    std::array<NodeId, 4> operands{};
-    Span span;
-  };
-  class Writer;
-  NodeId simplified(const Node& node) const;
   NodeId add(const Node& node);
 
-  bool fold_;
+  bool fold_, guards_;
   std::vector<Node> nodes_;
   std::unordered_multimap<std::uint64_t, NodeId> by_hash_;
 };

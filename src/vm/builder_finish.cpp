@@ -1,6 +1,5 @@
-// From the graph of values to code: what is needed, where it runs, and which row holds it.
+// From the optimised graph to code: where each value stands, and which row holds it how long.
 #include <algorithm>
-#include <bit>
 #include <functional>
 #include <queue>
 
@@ -9,14 +8,14 @@
 
 namespace tyndall::vm {
 
-// The part of the graph that some outputs need, and the program written from it.
-class Builder::Writer {
+namespace {
+
+constexpr std::size_t limit = 65535;
+
+// The program written from a graph.
+class Writer {
  public:
-  Writer(const Builder& builder, std::span<const NodeId> outputs)
-      : nodes_(builder.nodes_), uses_(nodes_.size(), 0), outputs_(outputs) {
-    mark();
-    if (builder.fold_) fuse();
-  }
+  Writer(const Graph& graph, Schedule schedule) : graph_(graph), schedule_(std::move(schedule)) {}
 
   std::optional<Program> write() {
     number_values();
@@ -24,57 +23,26 @@ class Builder::Writer {
     if (fixed > limit) return std::nullopt;
     program_.uniform_count = static_cast<std::uint16_t>(uniforms_);
     find_last_readers();
-    write_code();
+    for (std::size_t i = 0; i < graph_.nodes.size(); ++i)
+      if (graph_.uses[i] > 0 && graph_.nodes[i].is_operation() && graph_.nodes[i].uniform)
+        write(NodeId(i), program_.uniform_code, program_.uniform_spans);
+    for (std::size_t place = 0; place < schedule_.order.size(); ++place) write_lane(place);
     if (fixed + rows_ > limit) return std::nullopt;
     program_.row_count = static_cast<std::uint16_t>(rows_);
-    for (const NodeId output : outputs_) program_.outputs.push_back(operand(output));
+    for (const NodeId output : graph_.outputs) program_.outputs.push_back(operand(output));
     CHECK_EQ(verify(program_), std::string());
+    program_.fingerprint = fingerprint_of(program_);
     return std::move(program_);
   }
 
  private:
-  static constexpr std::size_t limit = 65535;
-
-  std::size_t index_of(const Node& node) const { return static_cast<std::size_t>(&node - nodes_.data()); }
-  static bool is_operation(const Node& node) { return node.kind == Node::Kind::operation; }
-  static bool is_lane(const Node& node) { return is_operation(node) && !node.uniform; }
-  std::span<const NodeId> operands(const Node& node) const {
-    return std::span(node.operands)
-        .first(is_operation(node) ? static_cast<std::size_t>(op_info(node.op).operands) : 0);
-  }
-
-  // Counts the readers of every value that the outputs need; the others keep none.
-  void mark() {
-    for (const NodeId output : outputs_) ++uses_[output.index];
-    for (std::size_t i = nodes_.size(); i-- > 0;)
-      if (uses_[i] > 0)
-        for (const NodeId id : operands(nodes_[i])) ++uses_[id.index];
-  }
-
-  // a*b + c with no other reader of the product is one instruction; it rounds twice, so nothing changes.
-  void fuse() {
-    for (Node& node : nodes_) {
-      if (uses_[index_of(node)] == 0 || !is_operation(node) || node.op != Op::add) continue;
-      for (const std::size_t k : {0u, 1u}) {
-        const NodeId product = node.operands[k];
-        const Node& factor = nodes_[product.index];
-        const bool fits = is_operation(factor) && factor.op == Op::mul && uses_[product.index] == 1 &&
-                          factor.uniform == node.uniform;
-        if (!fits) continue;
-        node.operands = {factor.operands[0], factor.operands[1], node.operands[1 - k], NodeId{}};
-        node.op = Op::fma;
-        uses_[product.index] = 0;
-        break;
-      }
-    }
-  }
-
   // Constants, inputs and uniforms in the order in which they are first needed.
   void number_values() {
-    place_.assign(nodes_.size(), 0);
+    place_.assign(graph_.nodes.size(), 0);
+    std::vector<bool> numbered(graph_.nodes.size(), false);
     const auto number = [&](NodeId id) {
-      const Node& node = nodes_[id.index];
-      if (numbered_[id.index]) return;
+      const Node& node = graph_[id];
+      if (numbered[id.index]) return;
       if (node.kind == Node::Kind::constant) {
         place_[id.index] = program_.constants.size();
         program_.constants.push_back(node.value);
@@ -82,59 +50,72 @@ class Builder::Writer {
         place_[id.index] = program_.inputs.size();
         program_.inputs.push_back(node.input);
       }
-      numbered_[id.index] = true;
+      numbered[id.index] = true;
     };
-    numbered_.assign(nodes_.size(), false);
-    for (const Node& node : nodes_) {
-      if (uses_[index_of(node)] == 0) continue;
-      for (const NodeId id : operands(node)) number(id);
-      if (is_operation(node) && node.uniform) place_[index_of(node)] = uniforms_++;
+    for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
+      const Node& node = graph_.nodes[i];
+      if (graph_.uses[i] == 0) continue;
+      for (const NodeId id : node.reads()) number(id);
+      if (node.is_operation() && node.uniform) place_[i] = uniforms_++;
     }
-    for (const NodeId output : outputs_) number(output);
+    for (const NodeId output : graph_.outputs) number(output);
   }
 
+  // The place in the order after which a value is needed no more. A guard reads its condition before the
+  // select that made it does, so it counts for nothing here.
   void find_last_readers() {
-    last_reader_.assign(nodes_.size(), 0);
-    for (const Node& node : nodes_)
-      if (uses_[index_of(node)] > 0)
-        for (const NodeId id : operands(node)) last_reader_[id.index] = index_of(node);
-    for (const NodeId output : outputs_) last_reader_[output.index] = nodes_.size();
+    last_reader_.assign(graph_.nodes.size(), 0);
+    for (std::size_t place = 0; place < schedule_.order.size(); ++place)
+      for (const NodeId id : graph_[schedule_.order[place]].reads()) last_reader_[id.index] = place;
+    for (const NodeId output : graph_.outputs) last_reader_[output.index] = schedule_.order.size();
   }
 
-  void write_code() {
-    std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> free_rows;
-    for (const Node& node : nodes_) {
-      const std::size_t i = index_of(node);
-      if (uses_[i] == 0 || !is_operation(node)) continue;
-      Instruction instruction;
-      instruction.op = node.op;
-      instruction.count = node.count;
-      instruction.immediate = node.immediate;
-      const auto reads = operands(node);
-      for (std::size_t k = 0; k < reads.size(); ++k) instruction.operands[k] = operand(reads[k]);
-      if (is_lane(node)) {
-        for (std::size_t k = 0; k < reads.size(); ++k) {
-          const NodeId id = reads[k];
-          const bool again = std::find(reads.begin(), reads.begin() + static_cast<std::ptrdiff_t>(k), id) !=
-                             reads.begin() + static_cast<std::ptrdiff_t>(k);
-          if (!again && is_lane(nodes_[id.index]) && last_reader_[id.index] == i)
-            free_rows.push(place_[id.index]);
-        }
-        if (free_rows.empty()) {
-          place_[i] = rows_++;
-        } else {
-          place_[i] = free_rows.top();
-          free_rows.pop();
-        }
-      }
-      instruction.destination = operand(NodeId(i));
-      (node.uniform ? program_.uniform_code : program_.lane_code).push_back(instruction);
-      (node.uniform ? program_.uniform_spans : program_.lane_spans).push_back(node.span);
+  void write_lane(std::size_t place) {
+    while (next_guard_ < schedule_.guards.size() && schedule_.guards[next_guard_].first == place) {
+      const Schedule::Guard& guard = schedule_.guards[next_guard_++];
+      program_.guards.push_back({guard.first, guard.last, operand(guard.condition), guard.when});
     }
+    const NodeId id = schedule_.order[place];
+    const auto reads = graph_[id].reads();
+    Instruction instruction = instruction_of(id);
+    for (std::size_t k = 0; k < reads.size(); ++k) {
+      const bool again = std::find(reads.begin(), reads.begin() + static_cast<std::ptrdiff_t>(k), reads[k]) !=
+                         reads.begin() + static_cast<std::ptrdiff_t>(k);
+      if (!again && graph_[reads[k]].is_lane() && last_reader_[reads[k].index] == place)
+        free_rows_.push(place_[reads[k].index]);
+    }
+    // An instruction may write where it reads: every vector is read before it is written.
+    if (free_rows_.empty()) {
+      place_[id.index] = rows_++;
+    } else {
+      place_[id.index] = free_rows_.top();
+      free_rows_.pop();
+    }
+    instruction.destination = operand(id);
+    program_.lane_code.push_back(instruction);
+    program_.lane_spans.push_back(graph_[id].span);
+  }
+
+  void write(NodeId id, std::vector<Instruction>& code, std::vector<Span>& spans) const {
+    Instruction instruction = instruction_of(id);
+    instruction.destination = operand(id);
+    code.push_back(instruction);
+    spans.push_back(graph_[id].span);
+  }
+
+  Instruction instruction_of(NodeId id) const {
+    const Node& node = graph_[id];
+    Instruction instruction;
+    instruction.op = node.op;
+    instruction.count = node.count;
+    instruction.immediate = node.immediate;
+    const auto reads = node.reads();
+    for (std::size_t k = 0; k < reads.size(); ++k) instruction.operands[k] = operand(reads[k]);
+    return instruction;
   }
 
   Operand operand(NodeId id) const {
-    const Node& node = nodes_[id.index];
+    const Node& node = graph_[id];
     const std::size_t first = node.kind == Node::Kind::constant ? 0
                               : node.kind == Node::Kind::input  ? program_.first_input()
                               : node.uniform                    ? program_.first_uniform()
@@ -142,18 +123,21 @@ class Builder::Writer {
     return static_cast<Operand>(first + place_[id.index]);
   }
 
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> uses_;  // readers, outputs among them
-  std::span<const NodeId> outputs_;
+  const Graph& graph_;
+  const Schedule schedule_;
   std::vector<std::size_t> place_, last_reader_;
-  std::vector<bool> numbered_;
-  std::size_t uniforms_ = 0, rows_ = 0;
+  std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> free_rows_;
+  std::size_t uniforms_ = 0, rows_ = 0, next_guard_ = 0;
   Program program_;
 };
 
+}  // namespace
+
 std::optional<Program> Builder::finish(std::span<const NodeId> outputs) const {
   for (const NodeId output : outputs) CHECK_LT(output.index, nodes_.size());
-  return Writer(*this, outputs).write();
+  Graph graph(nodes_, outputs);
+  if (fold_) fuse(graph);
+  return Writer(graph, schedule(graph, guards_)).write();
 }
 
 }  // namespace tyndall::vm

@@ -1,34 +1,36 @@
-// Cuts a batch into chunks, lays out their values, and runs the code over them.
+// Cuts a batch into chunks, says where their values are, and runs the program's steps over them.
 #include "vm/machine.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <new>
-#include <vector>
+#include <unordered_map>
 
 #include "base/check.h"
-#include "vm/simd.h"
+#include "vm/prepared.h"
 
 namespace tyndall::vm {
 
-// Values are one block: first what is the same for all lanes, one vector each, then rows of lanes.
+// What the machine knows of the programs that it has run.
 struct Machine::Memory {
-  struct Free {
-    void operator()(float* p) const { ::operator delete[](p, std::align_val_t{alignment}); }
-  };
-  static constexpr std::size_t alignment = 64;
+  Rows rows;
+  std::unordered_map<std::uint64_t, Prepared> programs;  // by fingerprint
+  std::uint64_t last_fingerprint = 0;
+  Prepared* last = nullptr;
 
-  std::unique_ptr<float[], Free> values;
-  std::size_t size = 0;
-  std::vector<OperandView> operands;
-
-  void reserve(std::size_t floats, std::size_t operand_count) {
-    if (floats > size) {
-      values.reset(
-          static_cast<float*>(::operator new[](floats * sizeof(float), std::align_val_t{alignment})));
-      size = floats;
+  // The program's layout for the SIMD class in use.
+  Prepared& prepared(const Program& program) {
+    const auto current = [](const Prepared& p) { return p.functions().data() == step_functions().data(); };
+    if (program.fingerprint != 0) {
+      if (program.fingerprint == last_fingerprint && current(*last)) return *last;
+      const auto found = programs.find(program.fingerprint);
+      if (found != programs.end() && current(found->second)) return remember(program, found->second);
     }
-    if (operand_count > operands.size()) operands.resize(operand_count);
+    return remember(program,
+                    programs.insert_or_assign(program.fingerprint, Prepared(program, rows)).first->second);
+  }
+  Prepared& remember(const Program& program, Prepared& prepared) {
+    last_fingerprint = program.fingerprint;
+    last = &prepared;
+    return prepared;
   }
 };
 
@@ -44,6 +46,100 @@ void copy_padded(const float* from, std::size_t lanes, std::size_t padded, float
   std::fill(to + lanes, to + padded, from[lanes - 1]);
 }
 
+// One chunk of a batch: lanes [begin, begin + used), computed in `issued` lanes. Whole vectors are read and
+// written where the caller has them; otherwise there are copies.
+struct Chunk {
+  Prepared& prepared;
+  const Program& program;
+  const BatchInputs& inputs;
+  std::span<float* const> outputs;
+  std::size_t begin, used, issued;
+
+  void read_inputs() const {
+    for (std::size_t k = 0; k < program.inputs.size(); ++k) {
+      const Input input = program.inputs[k];
+      if (is_uniform(input)) continue;
+      CHECK(inputs[input] != nullptr);
+      const float* const from = inputs[input] + begin;
+      if (issued != used) copy_padded(from, used, issued, prepared.input_row(k));
+      prepared.read_input(k, issued == used ? from : nullptr);
+    }
+  }
+  void place_outputs() const {
+    for (std::size_t k = 0; k < outputs.size(); ++k)
+      if (prepared.outputs()[k].row) prepared.write_output(k, issued == used ? outputs[k] + begin : nullptr);
+  }
+  void finish_outputs() const {
+    for (std::size_t k = 0; k < outputs.size(); ++k) {
+      const Prepared::Output& output = prepared.outputs()[k];
+      float* const to = outputs[k] + begin;
+      if (output.uniform)
+        std::fill_n(to, used, *output.uniform);
+      else if (output.input >= 0)
+        std::copy_n(inputs[program.inputs[static_cast<std::size_t>(output.input)]] + begin, used, to);
+      else if (output.same_as >= 0)
+        std::copy_n(outputs[static_cast<std::size_t>(output.same_as)] + begin, used, to);
+      else if (issued != used)
+        std::copy_n(output.row, used, to);
+    }
+  }
+};
+
+// Guards skip whole groups of lanes.
+constexpr std::size_t guard_group = widest_vector;
+
+// Runs steps over lanes of a chunk, and counts them.
+struct Runner {
+  Prepared& prepared;
+  std::uint64_t instructions = 0;
+
+  // Steps [begin, end) over lanes [first, first + lanes); `guard` is the first one in there.
+  void run(std::uint32_t begin, std::uint32_t end, std::uint32_t guard, std::size_t first,
+           std::size_t lanes) {
+    auto& guards = prepared.guards();
+    while (begin < end) {
+      const bool guarded = guard < guards.size() && guards[guard].first < end;
+      const std::uint32_t stop = guarded ? guards[guard].first : end;
+      instructions += stop - begin;
+      for (; begin < stop; ++begin) {
+        const Step& step = prepared.steps()[begin];
+        step.run(step, first, lanes);
+      }
+      if (!guarded) return;
+      run_guarded(guard, first, lanes);
+      begin = guards[guard].last;
+      guard = guards[guard].next;
+    }
+  }
+
+  // The guard's steps, over stretches of groups in which it lets some lane pass.
+  void run_guarded(std::uint32_t index, std::size_t first, std::size_t lanes) {
+    Prepared::Guard& guard = prepared.guards()[index];
+    const std::size_t end = first + lanes;
+    for (std::size_t at = first; at < end;) {
+      std::size_t stretch = at;
+      while (stretch < end && passes(guard, stretch, std::min(end - stretch, guard_group)))
+        stretch += std::min(end - stretch, guard_group);
+      if (stretch > at) {
+        guard.lanes_run += stretch - at;
+        run(guard.first, guard.last, index + 1, at, stretch - at);
+      }
+      at = stretch + guard_group;
+    }
+  }
+
+  static bool passes(const Prepared::Guard& guard, std::size_t first, std::size_t lanes) {
+    const float* const condition = guard.condition + (first & guard.lane_mask);
+    unsigned set = 0, clear = 0;
+    if (guard.lane_mask == 0) lanes = 1;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      set |= condition[i] != 0;
+      clear |= condition[i] == 0;
+    }
+    return (guard.when ? set : clear) != 0;
+  }
+};
+
 }  // namespace
 
 void Machine::run(const Program& program, const BatchInputs& inputs, std::size_t lanes,
@@ -51,52 +147,33 @@ void Machine::run(const Program& program, const BatchInputs& inputs, std::size_t
   CHECK_EQ(outputs.size(), program.outputs.size());
   ++counters_.runs;
   if (lanes == 0) return;
+  Prepared& prepared = memory_->prepared(program);
+  prepared.set_uniform_inputs(program, inputs);
   const std::size_t vector = simd_lanes();
-  const auto pad = [&](std::size_t n) { return (n + vector - 1) / vector * vector; };
-  const std::size_t pitch =
-      (pad(std::min(lanes, max_lanes)) + widest_vector - 1) / widest_vector * widest_vector;
-  const std::size_t first_row = program.first_row();
-  memory_->reserve(first_row * widest_vector + (program.inputs.size() + program.row_count) * pitch,
-                   program.operand_count());
-  OperandView* const operands = memory_->operands.data();
-  float* const values = memory_->values.get();
-
-  for (std::size_t k = 0; k < first_row; ++k) operands[k] = {values + k * widest_vector, 0};
-  broadcast(program.constants, values);
-  float* next = values + first_row * widest_vector;
-  for (std::size_t k = 0; k < program.inputs.size(); ++k) {
-    OperandView& view = operands[program.first_input() + k];
-    const Input input = program.inputs[k];
-    CHECK(inputs[input] != nullptr);
-    if (is_uniform(input)) {
-      broadcast(std::span(inputs[input], 1), view.data);
-    } else {
-      view = {next, ~std::size_t{0}};
-      next += pitch;
-    }
-  }
-  for (std::size_t k = 0; k < program.row_count; ++k, next += pitch)
-    operands[first_row + k] = {next, ~std::size_t{0}};
-
-  if (!program.uniform_code.empty()) run_code(program.uniform_code, operands, vector);
   for (std::size_t begin = 0; begin < lanes; begin += max_lanes) {
-    const std::size_t used = std::min(max_lanes, lanes - begin), issued = pad(used);
-    for (std::size_t k = 0; k < program.inputs.size(); ++k)
-      if (!is_uniform(program.inputs[k]))
-        copy_padded(inputs[program.inputs[k]] + begin, used, issued,
-                    operands[program.first_input() + k].data);
-    run_code(program.lane_code, operands, issued);
-    for (std::size_t k = 0; k < outputs.size(); ++k) {
-      const OperandView& view = operands[program.outputs[k]];
-      if (view.lane_mask == 0)
-        std::fill_n(outputs[k] + begin, used, *view.data);
-      else
-        std::copy_n(view.data, used, outputs[k] + begin);
-    }
+    const std::size_t used = std::min(max_lanes, lanes - begin),
+                      issued = (used + vector - 1) / vector * vector;
+    const Chunk chunk{prepared, program, inputs, outputs, begin, used, issued};
+    chunk.read_inputs();
+    chunk.place_outputs();
+    Runner runner{prepared};
+    runner.run(0, static_cast<std::uint32_t>(prepared.steps().size()), 0, 0, issued);
+    chunk.finish_outputs();
     counters_.lanes_used += used;
     counters_.lanes_issued += issued;
-    counters_.instructions += program.lane_code.size();
+    prepared.lanes_run += issued;
+    counters_.instructions += runner.instructions;
   }
+}
+
+std::vector<std::uint64_t> Machine::lanes_run(const Program& program) const {
+  std::vector<std::uint64_t> lanes(program.lane_code.size(), 0);
+  const auto found = memory_->programs.find(program.fingerprint);
+  if (program.fingerprint == 0 || found == memory_->programs.end()) return lanes;
+  std::fill(lanes.begin(), lanes.end(), found->second.lanes_run);
+  for (const Prepared::Guard& guard : found->second.guards())
+    std::fill(lanes.begin() + guard.first, lanes.begin() + guard.last, guard.lanes_run);
+  return lanes;
 }
 
 }  // namespace tyndall::vm

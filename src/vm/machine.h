@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "vm/program.h"
 
@@ -31,7 +32,8 @@ class Machine {
   Machine& operator=(const Machine&) = delete;
 
   // Computes every output of the program for `lanes` lanes: outputs[k][i] is output k of lane i. Uniform
-  // outputs are written to all lanes too. Any number of lanes, in chunks of at most max_lanes.
+  // outputs are written to all lanes too. Any number of lanes, in chunks of at most max_lanes. Outputs may
+  // overlap neither inputs nor each other.
   void run(const Program& program, const BatchInputs& inputs, std::size_t lanes,
            std::span<float* const> outputs);
 
@@ -43,6 +45,9 @@ class Machine {
   };
   const Counters& counters() const { return counters_; }
   void reset_counters() { counters_ = {}; }
+  // How many lanes each instruction of the program's lane code was run for (in whole vectors) by this
+  // machine.
+  std::vector<std::uint64_t> lanes_run(const Program& program) const;
 
  private:
   struct Memory;

@@ -11,7 +11,11 @@ namespace tyndall::vm {
   X(copy, 1)                                                                                                 \
   X(add, 2)                                                                                                  \
   X(sub, 2)                                                                                                  \
-  X(mul, 2) X(div, 2) X(neg, 1) X(fma, 3) /* a*b + c, rounded twice: mul then add */                         \
+  X(mul, 2)                                                                                                  \
+  X(div, 2)                                                                                                  \
+  X(neg, 1) X(fma, 3) /* a*b + c; this and the next four round after each operation */                       \
+      X(fms, 3) /* a*b - c */ X(fnma, 3) /* c - a*b */ X(add_mul, 3) /* (a + b)*c */ X(                      \
+          sub_mul, 3) /* (a - b)*c */ X(dot2, 4)                                             /* a*b + c*d */ \
       X(min, 2) X(max, 2) X(clamp, 3) X(abs, 1) X(floor, 1) X(ceil, 1) X(fract, 1) X(mod, 2) /* sign of b */ \
       X(mix, 3) X(step, 2) X(smoothstep, 3) X(sqrt, 1) X(pow, 2) X(exp, 1) X(log, 1) X(sin, 1) X(cos, 1)     \
           X(tan, 1) X(asin, 1) X(acos, 1) X(atan, 1) X(atan2, 2) X(length2, 2)                               \

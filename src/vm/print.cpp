@@ -40,16 +40,32 @@ std::string source_line(const Span& span, const Sources* sources) {
 
 void print_code(std::string& out, const Program& program, std::string_view title,
                 const std::vector<Instruction>& code, const std::vector<Span>& spans,
-                const Sources* sources) {
+                const std::vector<Guard>& guards, const Sources* sources) {
   if (code.empty()) return;
   out += fmt::format("{}\n", title);
-  std::string last_line;
+  std::string last_line, indent = "  ";
+  auto guard = guards.begin();
+  std::vector<std::uint32_t> ends;
+  const auto close = [&](std::size_t i) {
+    for (; !ends.empty() && ends.back() == i; ends.pop_back()) {
+      indent.resize(indent.size() - 2);
+      out += indent + "}\n";
+    }
+  };
   for (std::size_t i = 0; i < code.size(); ++i) {
+    close(i);
     const std::string line = source_line(spans[i], sources);
     if (line != last_line) out += line;
     last_line = line;
-    out += fmt::format("  {}\n", instruction_text(program, code[i]));
+    for (; guard != guards.end() && guard->first == i; ++guard) {
+      out += fmt::format("{}where {}{} {{\n", indent, guard->when ? "" : "not ",
+                         operand_name(program, guard->condition));
+      indent += "  ";
+      ends.push_back(guard->last);
+    }
+    out += fmt::format("{}{}\n", indent, instruction_text(program, code[i]));
   }
+  close(code.size());
 }
 
 }  // namespace
@@ -66,9 +82,9 @@ std::string print(const Program& program, const Sources* sources) {
     for (const Input input : program.inputs) out += fmt::format(" {}", input_name(input));
     out += '\n';
   }
-  print_code(out, program, "once a batch", program.uniform_code, program.uniform_spans, sources);
+  print_code(out, program, "once a batch", program.uniform_code, program.uniform_spans, {}, sources);
   print_code(out, program, fmt::format("every lane, {} rows", program.row_count), program.lane_code,
-             program.lane_spans, sources);
+             program.lane_spans, program.guards, sources);
   out += "outputs\n ";
   for (const Operand output : program.outputs) out += ' ' + operand_name(program, output);
   out += '\n';

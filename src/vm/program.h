@@ -40,14 +40,30 @@ struct Instruction {
 };
 static_assert(sizeof(Instruction) == 16);
 
+// Instructions [first, last) of the lane code, which lanes may do without where the condition is 0 (`when`)
+// or is not 0 (not `when`): what they write is read only in there, and by selects on that condition, which
+// take nothing of it in those lanes. So whoever looks at all lanes at once (the reference, bounds over boxes)
+// may ignore guards and run everything; a guard is leave to skip, never a command. Guards nest.
+struct Guard {
+  std::uint32_t first = 0, last = 0;
+  Operand condition = 0;
+  bool when = true;
+
+  bool operator==(const Guard&) const = default;
+};
+
 struct Program {
   std::vector<float> constants;
   std::vector<Input> inputs;  // in operand order, each once
   std::uint16_t uniform_count = 0;
   std::uint16_t row_count = 0;
   std::vector<Instruction> uniform_code, lane_code;
+  std::vector<Guard> guards;                    // by first; outer ones before inner ones
   std::vector<Operand> outputs;                 // any operand: a constant output needs no code
   std::vector<Span> uniform_spans, lane_spans;  // the source of each instruction, for listings and reports
+  // Names what the program computes: programs with the same one are the same to a machine, which lays out
+  // each once. 0: not known, laid out for every run.
+  std::uint64_t fingerprint = 0;
 
   Operand first_input() const { return static_cast<Operand>(constants.size()); }
   Operand first_uniform() const { return static_cast<Operand>(first_input() + inputs.size()); }
@@ -59,8 +75,12 @@ struct Program {
   bool constant(Operand operand) const { return operand < constants.size(); }
 };
 
+// A hash of all that a run depends on; never 0. A program that is changed needs a new one.
+std::uint64_t fingerprint_of(const Program& program);
+
 // The laws every program obeys: operands in range, rows and uniforms written before they are read, uniform
-// code reads no lane values, counts in their limits. Returns the first violation, or an empty string.
+// code reads no lane values, counts in their limits, guards nested and what they guard read where Guard says.
+// Returns the first violation, or an empty string.
 std::string verify(const Program& program);
 
 // The listing of `inspect --stage bytecode`: one instruction a line; with sources, the source line above each

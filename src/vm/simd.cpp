@@ -23,67 +23,61 @@ namespace tyndall::vm::HWY_NAMESPACE {
 
 // Operations of a few instructions a vector.
 constexpr bool is_short(Op op) { return op < Op::pow || (op > Op::atan2 && op < Op::noise3); }
+// Operations that are one long chain, each step waiting for the one before.
+constexpr bool is_chain(Op op) {
+  return (op >= Op::pow && op <= Op::atan2) || (op >= Op::random1 && op <= Op::random4);
+}
 
-// Where one operand is read: the next vector is `step` floats on, or the same one again.
-struct Reader {
-  const float* place;
-  std::size_t step;
-};
-
-// Two vectors at a time: the short kernels are bound by what surrounds them.
+// Four vectors at a time: the short kernels are bound by what surrounds them.
 template <Op op, std::size_t... k>
-TYNDALL_VM_INLINE void run_over_lanes(const Instruction& instruction, const OperandView* operands,
-                                      std::size_t lanes, std::index_sequence<k...>) {
+TYNDALL_VM_INLINE void run_over_lanes(const Step& step, std::size_t first, std::size_t lanes,
+                                      std::index_sequence<k...>) {
   const FloatTag d;
   const std::size_t width = hn::Lanes(d);
-  const Options options{instruction.count, instruction.immediate};
-  Reader readers[] = {
-      {operands[instruction.operands[k]].data, operands[instruction.operands[k]].lane_mask & width}...};
-  float* out = operands[instruction.destination].data;
+  const Options options{step.octaves, step.seed};
+  // Where each operand is read, and how far on the next vector is: 0 when all lanes read the same one.
+  const float* place[] = {step.operands[k] + (step.lane_mask[k] & first)...};
+  const std::size_t stride[] = {(step.lane_mask[k] & width)...};
+  float* out = step.destination + first;
   float* const end = out + lanes;
+  const auto compute = [&](std::size_t vectors_on) HWY_ATTR {
+    const Floats result =
+        Kernel<op>::run(options, Floats(hn::LoadU(d, place[k] + vectors_on * stride[k]))...);
+    hn::StoreU(result.raw, d, out + vectors_on * width);
+  };
   if constexpr (is_short(op)) {
+    for (; end - out >= static_cast<std::ptrdiff_t>(4 * width); out += 4 * width) {
+      compute(0), compute(1), compute(2), compute(3);
+      ((place[k] += 4 * stride[k]), ...);
+    }
+  }
+  if constexpr (is_chain(op)) {
     for (; end - out >= static_cast<std::ptrdiff_t>(2 * width); out += 2 * width) {
-      const Floats first = Kernel<op>::run(options, Floats(hn::LoadU(d, readers[k].place))...);
-      const Floats second =
-          Kernel<op>::run(options, Floats(hn::LoadU(d, readers[k].place + readers[k].step))...);
-      hn::Store(first.raw, d, out);
-      hn::Store(second.raw, d, out + width);
-      ((readers[k].place += 2 * readers[k].step), ...);
+      const FloatsPair result =
+          Kernel<op>::run(options, FloatsPair(hn::LoadU(d, place[k]), hn::LoadU(d, place[k] + stride[k]))...);
+      hn::StoreU(result.a.raw, d, out);
+      hn::StoreU(result.b.raw, d, out + width);
+      ((place[k] += 2 * stride[k]), ...);
     }
   }
   for (; out < end; out += width) {
-    const Floats result = Kernel<op>::run(options, Floats(hn::LoadU(d, readers[k].place))...);
-    hn::Store(result.raw, d, out);
-    ((readers[k].place += readers[k].step), ...);
+    compute(0);
+    ((place[k] += stride[k]), ...);
   }
 }
 
 template <Op op>
-void run_instruction(const Instruction& instruction, const OperandView* operands, std::size_t lanes) {
-  run_over_lanes<op>(instruction, operands, lanes, std::make_index_sequence<Kernel<op>::operands>());
+void run_step(const Step& step, std::size_t first, std::size_t lanes) {
+  run_over_lanes<op>(step, first, lanes, std::make_index_sequence<Kernel<op>::operands>());
 }
 
-using InstructionFunction = void (*)(const Instruction&, const OperandView*, std::size_t);
-
-constexpr InstructionFunction instruction_functions[] = {
-#define X(name, operand_count) &run_instruction<Op::name>,
+constexpr StepFunction functions[] = {
+#define X(name, operand_count) &run_step<Op::name>,
     TYNDALL_VM_OPS(X)
 #undef X
 };
 
-void run_code_simd(std::span<const Instruction> code, const OperandView* operands, std::size_t lanes) {
-  for (const Instruction& instruction : code)
-    instruction_functions[static_cast<std::size_t>(instruction.op)](instruction, operands, lanes);
-}
-
-void broadcast_simd(std::span<const float> values, float* to) {
-  const FloatTag d;
-  for (const float value : values) {
-    hn::Store(hn::Set(d, value), d, to);
-    to += widest_vector;
-  }
-}
-
+std::span<const StepFunction> functions_simd() { return functions; }
 std::size_t lanes_simd() { return hn::Lanes(FloatTag()); }
 const char* name_simd() { return hwy::TargetName(HWY_TARGET); }
 
@@ -93,17 +87,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tyndall::vm {
 
-HWY_EXPORT(run_code_simd);
-HWY_EXPORT(broadcast_simd);
+HWY_EXPORT(functions_simd);
 HWY_EXPORT(lanes_simd);
 HWY_EXPORT(name_simd);
 
-void run_code(std::span<const Instruction> code, const OperandView* operands, std::size_t lanes) {
-  HWY_DYNAMIC_DISPATCH(run_code_simd)(code, operands, lanes);
-}
-
-void broadcast(std::span<const float> values, float* to) { HWY_DYNAMIC_DISPATCH(broadcast_simd)(values, to); }
-
+std::span<const StepFunction> step_functions() { return HWY_DYNAMIC_DISPATCH(functions_simd)(); }
 std::size_t simd_lanes() { return HWY_DYNAMIC_DISPATCH(lanes_simd)(); }
 std::string simd_name() { return HWY_DYNAMIC_DISPATCH(name_simd)(); }
 

@@ -14,7 +14,10 @@ void bench_transmittance();
 
 namespace tyndall::vm {
 
-// The VM against the same shaders in scalar C++ and in hand-written Highway, alternated in one process.
-void bench(double seconds_a_row);
+// The VM against the same shaders in scalar C++ and in hand-written Highway, alternated in one process. False
+// when a row misses its target.
+bool bench(double seconds_a_row);
+// Every operation by itself.
+void bench_ops(double seconds_a_row);
 
 }  // namespace tyndall::vm

@@ -91,8 +91,31 @@ std::size_t differences(const std::vector<float>& a, const std::vector<float>& b
   return count;
 }
 
+// What is promised of a shader's rows; 0: nothing.
+struct Targets {
+  struct Row {
+    std::size_t lanes;
+    double most_to_hand, least_to_scalar;
+  };
+  std::vector<Row> rows;
+};
+
+// The text behind a row, and whether it keeps what is promised.
+bool judge(const Targets& targets, std::size_t lanes, double to_hand, double to_scalar) {
+  for (const Targets::Row& row : targets.rows) {
+    if (row.lanes != lanes) continue;
+    const bool good =
+        (row.most_to_hand == 0 || to_hand <= row.most_to_hand) && to_scalar >= row.least_to_scalar;
+    fmt::print("  {}: at most {:g} x{}", good ? "good" : "MISSED", row.most_to_hand,
+               row.least_to_scalar > 0 ? fmt::format(", at least {:g} x", row.least_to_scalar) : "");
+    return good;
+  }
+  return true;
+}
+
 template <class Shader>
-void measure(BenchShader shader, double seconds_a_row) {
+bool measure(BenchShader shader, const Targets& targets, double seconds_a_row) {
+  bool good = true;
   const Points p;
   const Program program = program_of<Shader>();
   Machine machine;
@@ -124,9 +147,12 @@ void measure(BenchShader shader, double seconds_a_row) {
       nanoseconds.push_back(vm / static_cast<double>(points) * 1e9);
       spent += vm + hand + plain;
     }
-    fmt::print("{:30} {:5} lanes  {:7.2f} ns/lane  {:5.2f} x hand-written  {:6.2f} x faster than scalar\n",
+    fmt::print("{:30} {:5} lanes  {:7.2f} ns/lane  {:5.2f} x hand-written  {:6.2f} x faster than scalar",
                Shader::name, lanes, median(nanoseconds), median(to_hand), median(to_scalar));
+    good &= judge(targets, lanes, median(to_hand), median(to_scalar));
+    fmt::print("\n");
   }
+  return good;
 }
 
 }  // namespace
@@ -134,11 +160,15 @@ void measure(BenchShader shader, double seconds_a_row) {
 
 namespace tyndall::vm {
 
-void bench(double seconds_a_row) {
+bool bench(double seconds_a_row) {
+  const Targets noise{{{16, 1.5, 0}, {64, 1.25, 3.5}, {128, 1.25, 3.5}, {256, 1.25, 3.5}}};
+  const Targets transcendental{{{128, 2.0, 5}, {256, 2.0, 5}}};
+  const Targets sums{{{256, 3.5, 0}}};
   fmt::print("SIMD class {}; medians of ratios taken alternately\n", simd_name());
-  measure<HWY_NAMESPACE::Cloud>(BenchShader::cloud, seconds_a_row);
-  measure<HWY_NAMESPACE::Transcendental>(BenchShader::transcendental, seconds_a_row);
-  measure<HWY_NAMESPACE::Sums>(BenchShader::sums, seconds_a_row);
+  bool good = measure<HWY_NAMESPACE::Cloud>(BenchShader::cloud, noise, seconds_a_row);
+  good &= measure<HWY_NAMESPACE::Transcendental>(BenchShader::transcendental, transcendental, seconds_a_row);
+  good &= measure<HWY_NAMESPACE::Sums>(BenchShader::sums, sums, seconds_a_row);
+  return good;
 }
 
 }  // namespace tyndall::vm

@@ -8,6 +8,7 @@
 
 #include <type_traits>
 
+#include "vm/kernels/pairs-inl.h"
 #include "vm/kernels/values-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -64,6 +65,11 @@ TYNDALL_VM_KERNEL2(mul) { return a * b; }
 TYNDALL_VM_KERNEL2(div) { return a / b; }
 TYNDALL_VM_KERNEL1(neg) { return -a; }
 TYNDALL_VM_KERNEL3(fma) { return a * b + c; }
+TYNDALL_VM_KERNEL3(fms) { return a * b - c; }
+TYNDALL_VM_KERNEL3(fnma) { return c - a * b; }
+TYNDALL_VM_KERNEL3(add_mul) { return (a + b) * c; }
+TYNDALL_VM_KERNEL3(sub_mul) { return (a - b) * c; }
+TYNDALL_VM_KERNEL4(dot2) { return a * b + c * d; }
 TYNDALL_VM_KERNEL2(min) { return min_of(a, b); }
 TYNDALL_VM_KERNEL2(max) { return max_of(a, b); }
 TYNDALL_VM_KERNEL3(clamp) { return min_of(max_of(a, b), c); }

@@ -28,20 +28,31 @@ TYNDALL_VM_INLINE V scale_by_power_of_two(V a, V k) {
   return a * power_of_two(half_magic) * power_of_two(k - half + magic);
 }
 
-// Cody and Waite's reduction; polynomial of Moshier's Cephes expf.
-TYNDALL_VM_KERNEL1(exp) {
-  const V magic(round_magic);
-  // Beyond these the result is 0 or infinite in any case; NaN passes.
-  const V x = lesser(V(100.0f), greater(V(-110.0f), a));
-  const V k = (x * V(0x1.715476p+0f) + magic) - magic;             // x / ln 2
-  const V r = (x - k * V(0.693359375f)) - k * V(-2.12194440e-4f);  // ln 2, high and low
+// Of vectors whose lanes are all ordinary (as in nearly every shader) the kernels compute less. A lane's
+// result is the same to the bit on either way.
+
+// e^r for |r| <= ln(2) / 2; polynomial of Moshier's Cephes expf.
+template <class V>
+TYNDALL_VM_INLINE V exp_of_reduced(V r) {
   V poly(1.9875691500e-4f);
   poly = poly * r + V(1.3981999507e-3f);
   poly = poly * r + V(8.3334519073e-3f);
   poly = poly * r + V(4.1665795894e-2f);
   poly = poly * r + V(1.6666665459e-1f);
   poly = poly * r + V(5.0000001201e-1f);
-  return scale_by_power_of_two(poly * r * r + r + V(1.0f), k);
+  return poly * r * r + r + V(1.0f);
+}
+
+// Cody and Waite's reduction.
+TYNDALL_VM_KERNEL1(exp) {
+  const V magic(round_magic);
+  const bool ordinary = all(abs(a) < V(87.0f));
+  // Beyond these the result is 0 or infinite in any case; NaN passes.
+  const V x = ordinary ? a : lesser(V(100.0f), greater(V(-110.0f), a));
+  const V k_magic = x * V(0x1.715476p+0f) + magic, k = k_magic - magic;  // x / ln 2
+  const V r = (x - k * V(0.693359375f)) - k * V(-2.12194440e-4f);        // ln 2, high and low
+  const V power = exp_of_reduced(r);
+  return ordinary ? power * power_of_two(k_magic) : scale_by_power_of_two(power, k);
 }
 inline double op_exp(const Options&, double a) { return std::exp(a); }
 
@@ -51,18 +62,25 @@ struct Parts {
   V mantissa, exponent;
 };
 template <class V>
+TYNDALL_VM_INLINE Parts<V> split_normal(V a, V bias) {
+  const auto pattern = bits(a) + (0x3f800000u - 0x3f3504f3u);
+  // The biased exponent in the low bits of 2^23 makes it a number.
+  return {from_bits((pattern & 0x007fffffu) + 0x3f3504f3u), from_bits((pattern >> 23) | 0x4b000000u) - bias};
+}
+template <class V>
 TYNDALL_VM_INLINE Parts<V> split_exponent(V a) {
   const auto small = a < V(0x1p-126f);
-  const auto pattern = bits(select(small, a * V(0x1p24f), a)) + (0x3f800000u - 0x3f3504f3u);
-  // The biased exponent in the low bits of 2^23 makes it a number.
-  const V exponent =
-      from_bits((pattern >> 23) | 0x4b000000u) - select(small, V(0x1p23f + 151), V(0x1p23f + 127));
-  return {from_bits((pattern & 0x007fffffu) + 0x3f3504f3u), exponent};
+  return split_normal(select(small, a * V(0x1p24f), a), select(small, V(0x1p23f + 151), V(0x1p23f + 127)));
+}
+template <class V>
+TYNDALL_VM_INLINE auto is_positive_normal(V a) {
+  return both(a >= V(0x1p-126f), a < V(std::numeric_limits<float>::infinity()));
 }
 
 // Polynomial of Cephes logf.
 TYNDALL_VM_KERNEL1(log) {
-  const Parts<V> parts = split_exponent(a);
+  const bool ordinary = all(is_positive_normal(a));
+  const Parts<V> parts = ordinary ? split_normal(a, V(0x1p23f + 127)) : split_exponent(a);
   const V x = parts.mantissa - V(1.0f), e = parts.exponent;
   V poly(7.0376836292e-2f);
   poly = poly * x + V(-1.1514610310e-1f);
@@ -76,6 +94,7 @@ TYNDALL_VM_KERNEL1(log) {
   const V square = x * x;
   V y = poly * x * square + e * V(-2.12194440e-4f) - V(0.5f) * square;
   y = (x + y) + e * V(0.693359375f);
+  if (ordinary) return y;
   const V infinite = V(std::numeric_limits<float>::infinity());
   y = select(a == infinite, a, y);
   y = select(a == V(0.0f), -infinite, y);
@@ -98,8 +117,7 @@ struct Double12 {
 // log2 of a positive finite number, to about 2^-32 of its value: with s = (m - 1)/(m + 1) kept in two parts,
 // log2 m = 2/(3 ln 2) s (3 + s^2 + 3/5 s^4 + ...). After fdlibm's e_powf.c.
 template <class V>
-TYNDALL_VM_INLINE Double12<V> log2_in_two(V a) {
-  const Parts<V> parts = split_exponent(a);
+TYNDALL_VM_INLINE Double12<V> log2_in_two(Parts<V> parts) {
   const V f = parts.mantissa - V(1.0f), g = parts.mantissa + V(1.0f);
   const V g_rest = parts.mantissa - (g - V(1.0f));
   const V reciprocal = V(1.0f) / g;
@@ -127,31 +145,33 @@ TYNDALL_VM_INLINE Double12<V> log2_in_two(V a) {
 template <class V>
 TYNDALL_VM_INLINE V exp2_of_two(V high, V low) {
   const V magic(round_magic);
-  const V x = lesser(V(160.0f), greater(V(-160.0f), high + low));
-  const V k = (x + magic) - magic;
+  const bool ordinary = all(abs(high + low) < V(125.0f));
+  const V x = ordinary ? high + low : lesser(V(160.0f), greater(V(-160.0f), high + low));
+  const V k_magic = x + magic, k = k_magic - magic;
+  const V rest = (high - k) + low;
+  if (ordinary) return exp_of_reduced(rest * V(0x1.62e43p-1f)) * power_of_two(k_magic);
   // Outside the clamp the parts mean nothing, and the result is 0 or infinite.
-  const V rest = select(abs(high + low) < V(160.0f), (high - k) + low, V(0.0f));
-  const V r = rest * V(0x1.62e43p-1f);
-  V poly(1.9875691500e-4f);
-  poly = poly * r + V(1.3981999507e-3f);
-  poly = poly * r + V(8.3334519073e-3f);
-  poly = poly * r + V(4.1665795894e-2f);
-  poly = poly * r + V(1.6666665459e-1f);
-  poly = poly * r + V(5.0000001201e-1f);
-  return scale_by_power_of_two(poly * r * r + r + V(1.0f), k);
+  const V inside = select(abs(high + low) < V(160.0f), rest, V(0.0f));
+  return scale_by_power_of_two(exp_of_reduced(inside * V(0x1.62e43p-1f)), k);
+}
+
+// base^exponent for positive finite bases, given its parts.
+template <class V>
+TYNDALL_VM_INLINE V power_of_parts(Parts<V> base, V exponent) {
+  const Double12<V> logarithm = log2_in_two(base);
+  const V high_half = upper_half(exponent);
+  return exp2_of_two(high_half * logarithm.high,
+                     (exponent - high_half) * logarithm.high + exponent * logarithm.low);
 }
 
 // C's pow: a negative base takes whole exponents only, pow(0, 0) = 1.
 TYNDALL_VM_KERNEL2(pow) {
+  if (all(both(is_positive_normal(a), abs(b) <= V(0x1p33f))))
+    return power_of_parts(split_normal(a, V(0x1p23f + 127)), b);
   const V zero(0.0f), one(1.0f), infinite(std::numeric_limits<float>::infinity());
   const V base = abs(a);
   // An exponent of 2^33 sends every base but 1 to 0 or infinity.
-  const V y = lesser(V(0x1p33f), greater(V(-0x1p33f), b));
-  const Double12<V> logarithm = log2_in_two(base);
-  const V y_high = upper_half(y);
-  const V high = y_high * logarithm.high;
-  const V low = (y - y_high) * logarithm.high + y * logarithm.low;
-  V result = exp2_of_two(high, low);
+  V result = power_of_parts(split_exponent(base), lesser(V(0x1p33f), greater(V(-0x1p33f), b)));
   result = select(base == zero, select(b < zero, infinite, zero), result);
   result = select(base == infinite, select(b < zero, zero, infinite), result);
   const auto whole = floor(b) == b;

@@ -146,6 +146,11 @@ TYNDALL_VM_BOUND2(div) {
 }
 TYNDALL_VM_BOUND1(neg) { return negated(a); }
 TYNDALL_VM_BOUND3(fma) { return sum_of(product_of(a, b), c); }
+TYNDALL_VM_BOUND3(fms) { return sum_of(product_of(a, b), negated(c)); }
+TYNDALL_VM_BOUND3(fnma) { return sum_of(c, negated(product_of(a, b))); }
+TYNDALL_VM_BOUND3(add_mul) { return product_of(sum_of(a, b), c); }
+TYNDALL_VM_BOUND3(sub_mul) { return product_of(sum_of(a, negated(b)), c); }
+TYNDALL_VM_BOUND4(dot2) { return sum_of(product_of(a, b), product_of(c, d)); }
 TYNDALL_VM_BOUND2(min) { return {lesser(a.lo, b.lo), lesser(a.hi, b.hi), either(a.nan, b.nan)}; }
 TYNDALL_VM_BOUND2(max) { return {greater(a.lo, b.lo), greater(a.hi, b.hi), either(a.nan, b.nan)}; }
 TYNDALL_VM_BOUND3(clamp) { return bound_min(options, bound_max(options, a, b), c); }

@@ -49,10 +49,10 @@ TYNDALL_VM_INLINE V cos_of_reduced(V x) {
   const V poly = (V(2.443315711809948e-5f) * z + V(-1.388731625493765e-3f)) * z + V(4.166664568298827e-2f);
   return poly * z * z - V(0.5f) * z + V(1.0f);
 }
-// Lanes whose quadrant is odd. The bit is moved into the sign of a number that is not zero.
+// Lanes whose quadrant is odd.
 template <class V, class B>
 TYNDALL_VM_INLINE auto is_odd(B quadrant) {
-  return flip_sign(V(1.0f), quadrant << 31) < V(0.0f);
+  return less_signed(quadrant << 31, B(0u));
 }
 template <class V>
 TYNDALL_VM_INLINE auto needs_library(V a) {

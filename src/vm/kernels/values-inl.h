@@ -60,6 +60,7 @@ inline bool less_signed(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::int32_t>(a) < static_cast<std::int32_t>(b);
 }
 inline bool any(bool m) { return m; }
+inline bool all(bool m) { return m; }
 // f(a) where m, one lane at a time: for arguments too rare to deserve a kernel.
 inline float replace_lanes(bool m, float a, float otherwise, float (*f)(float)) {
   return m ? f(a) : otherwise;
@@ -140,6 +141,7 @@ HWY_INLINE Mask less_signed(Bits a, Bits b) {
   return {hn::RebindMask(FloatTag(), hn::Lt(hn::BitCast(d, a.raw), hn::BitCast(d, b.raw)))};
 }
 HWY_INLINE bool any(Mask m) { return !hn::AllFalse(FloatTag(), m.raw); }
+HWY_INLINE bool all(Mask m) { return hn::AllTrue(FloatTag(), m.raw); }
 HWY_INLINE Floats replace_lanes(Mask m, Floats a, Floats otherwise, float (*f)(float)) {
   const FloatTag d;
   HWY_ALIGN float lanes[HWY_MAX_BYTES / sizeof(float)];
