@@ -13,7 +13,8 @@ namespace tyndall::vm {
   X(sub, 2)                                                                                                  \
   X(mul, 2)                                                                                                  \
   X(div, 2)                                                                                                  \
-  X(neg, 1) X(fma, 3) /* a*b + c; this and the next four round after each operation */                       \
+  X(neg, 1)                                                                                                  \
+  X(fma, 3) /* a*b + c; this and the next four round after each operation */                                 \
       X(fms, 3) /* a*b - c */ X(fnma, 3) /* c - a*b */ X(add_mul, 3) /* (a + b)*c */ X(                      \
           sub_mul, 3) /* (a - b)*c */ X(dot2, 4)                                             /* a*b + c*d */ \
       X(min, 2) X(max, 2) X(clamp, 3) X(abs, 1) X(floor, 1) X(ceil, 1) X(fract, 1) X(mod, 2) /* sign of b */ \

@@ -96,6 +96,81 @@ TEST(Builder, FusesProductsWithOneReaderIntoSums) {
             "outputs\n  r1 r0\n");
 }
 
+TEST(Builder, FusesWhatOneReaderWants) {
+  struct Case {
+    Op outer;
+    bool inner_left, inner_right;
+    Op inner;
+    std::string code;
+  };
+  const Case cases[] = {
+      {Op::add, true, false, Op::mul, "fma p.x p.y uv.x"},
+      {Op::add, false, true, Op::mul, "fma p.x p.y uv.x"},
+      {Op::sub, true, false, Op::mul, "fms p.x p.y uv.x"},
+      {Op::sub, false, true, Op::mul, "fnma p.x p.y uv.x"},
+      {Op::add, true, true, Op::mul, "dot2 p.x p.y p.y uv.x"},
+      {Op::mul, true, false, Op::add, "add_mul p.x p.y uv.x"},
+      {Op::mul, false, true, Op::add, "add_mul p.x p.y uv.x"},
+      {Op::mul, true, false, Op::sub, "sub_mul p.x p.y uv.x"},
+  };
+  for (const Case& c : cases) {
+    Graph g;
+    const NodeId u = g.builder.input(Input::u), inner = g.emit(c.inner, {g.x, g.y});
+    const NodeId left = c.inner_left ? inner : u;
+    const NodeId right = c.inner_left && c.inner_right ? g.emit(c.inner, {g.y, u})
+                         : c.inner_right               ? inner
+                                                       : u;
+    const NodeId result = g.emit(c.outer, {left, right});
+    EXPECT_EQ(g.listing({result}),
+              "inputs\n  p.x p.y uv.x\nevery lane, 1 rows\n  r0 = " + c.code + "\noutputs\n  r0\n");
+  }
+}
+
+TEST(Builder, DividesByPowersOfTwoByMultiplying) {
+  Graph g;
+  EXPECT_EQ(g.emit(Op::div, {g.x, g.constant(4)}), g.emit(Op::mul, {g.x, g.constant(0.25f)}));
+  EXPECT_EQ(g.emit(Op::div, {g.x, g.constant(-0x1p-126f)}), g.emit(Op::mul, {g.x, g.constant(-0x1p126f)}));
+  // 1/3 is rounded, and 2^-128 is no normal number (not every machine multiplies by one quickly).
+  EXPECT_EQ(g.listing({g.emit(Op::div, {g.x, g.constant(3)}), g.emit(Op::div, {g.x, g.constant(0x1p127f)})}),
+            "constants\n  c0 = 3\n  c1 = 1.7014118e+38\n"
+            "inputs\n  p.x\n"
+            "every lane, 2 rows\n  r0 = div p.x c0\n  r1 = div p.x c1\n"
+            "outputs\n  r0 r1\n");
+}
+
+TEST(Builder, MovesSignsOutOfSums) {
+  Graph g;
+  const NodeId minus_x = g.emit(Op::neg, {g.x}), minus_y = g.emit(Op::neg, {g.y});
+  EXPECT_EQ(g.emit(Op::add, {g.y, minus_x}), g.emit(Op::sub, {g.y, g.x}));
+  EXPECT_EQ(g.emit(Op::add, {minus_x, g.y}), g.emit(Op::sub, {g.y, g.x}));
+  EXPECT_EQ(g.emit(Op::sub, {g.y, minus_x}), g.emit(Op::add, {g.y, g.x}));
+  EXPECT_EQ(g.emit(Op::mul, {minus_x, minus_y}), g.emit(Op::mul, {g.x, g.y}));
+  EXPECT_EQ(g.emit(Op::mul, {g.x, g.constant(-1)}), minus_x);
+  EXPECT_EQ(g.emit(Op::abs, {minus_x}), g.emit(Op::abs, {g.x}));
+  EXPECT_EQ(g.emit(Op::add, {g.x, g.constant(-0.0f)}), g.x);
+  // x - x is NaN for infinities, and min(0, -0) depends on the order.
+  EXPECT_FALSE(g.builder.is_constant(g.emit(Op::sub, {g.x, g.x})));
+  EXPECT_NE(g.emit(Op::min, {g.x, g.y}), g.emit(Op::min, {g.y, g.x}));
+}
+
+TEST(Builder, DecidesChoicesOnce) {
+  Graph g;
+  const NodeId c = g.emit(Op::less, {g.x, g.y}), one = g.constant(1), zero = g.constant(0);
+  const NodeId chosen = g.emit(Op::select, {c, g.x, g.time});
+  EXPECT_EQ(g.emit(Op::select, {c, chosen, g.y}), g.emit(Op::select, {c, g.x, g.y}));
+  EXPECT_EQ(g.emit(Op::select, {c, g.y, chosen}), g.emit(Op::select, {c, g.y, g.time}));
+  const NodeId not_c = g.emit(Op::logical_not, {c});
+  EXPECT_EQ(g.emit(Op::select, {not_c, g.x, g.y}), g.emit(Op::select, {c, g.y, g.x}));
+  EXPECT_EQ(g.emit(Op::logical_not, {not_c}), c);
+  EXPECT_EQ(g.emit(Op::logical_and, {c, one}), c);
+  EXPECT_EQ(g.emit(Op::logical_and, {zero, c}), zero);
+  EXPECT_EQ(g.emit(Op::logical_or, {c, one}), one);
+  EXPECT_EQ(g.emit(Op::logical_or, {c, c}), c);
+  // Not every number is a boolean, and not(x < y) holds for NaN where x >= y does not.
+  EXPECT_NE(g.emit(Op::logical_and, {g.x, one}), g.x);
+  EXPECT_NE(not_c, g.emit(Op::less_equal, {g.y, g.x}));
+}
+
 TEST(Builder, ReusesRowsAfterTheirLastReader) {
   Graph g;
   NodeId value = g.x;
