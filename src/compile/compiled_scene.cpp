@@ -8,6 +8,7 @@
 #include "compile/geometry.h"
 #include "compile/majorant_grid.h"
 #include "compile/volume_grids.h"
+#include "vm/machine.h"
 
 namespace tyndall::compile {
 
@@ -55,6 +56,42 @@ CompiledMedium compiled(const scene::Medium& medium) {
   return out;
 }
 
+// A number that is the same for the whole surface, as the program gives it at the scene's time.
+float uniform_value(const vm::Program& program, std::uint8_t output, double at_time) {
+  const vm::Operand operand = program.outputs[output];
+  if (program.constant(operand)) return program.constants[operand];
+  const float zero = 0, time = static_cast<float>(at_time);
+  vm::BatchInputs inputs;
+  inputs.lanes.fill(&zero);
+  inputs[vm::Input::time] = &time;
+  std::vector<float> values(program.outputs.size());
+  std::vector<float*> rows;
+  for (float& value : values) rows.push_back(&value);
+  vm::run_reference(program, inputs, 1, rows);
+  return values[output];
+}
+
+CompiledMaterial compiled(const scene::Material& material, double time) {
+  CompiledMaterial out;
+  out.matte = material.matte();
+  out.opaque = !material.opacity;
+  out.transmits = material.transmission.has_value();
+  if (material.ior) {
+    const float ior = uniform_value(material.program, *material.ior, time);
+    if (ior >= 1 && std::isfinite(ior)) out.ior = ior;  // else a function of time has left the range
+  }
+  return out;
+}
+
+// The relative indices of the boundaries of rough glass.
+std::vector<double> rough_etas(const CompiledScene& world) {
+  std::vector<double> etas;
+  for (std::size_t i = 0; i < world.materials.size(); ++i)
+    if (world.materials[i].transmits && world.scene.materials[i].roughness)
+      etas.push_back(world.materials[i].ior);
+  return etas;
+}
+
 Features features_of(const CompiledScene& world) {
   Features f;
   f.volumes = !world.volumes.empty();
@@ -77,7 +114,13 @@ Features features_of(const CompiledScene& world) {
                           [&](const auto&) { f.area_lights = true; }},
                light);
   }
-  for (const scene::Material& m : world.scene.materials) f.surface_emission |= m.emission.has_value();
+  for (const scene::Material& m : world.scene.materials) {
+    f.surface_emission |= m.emission.has_value();
+    f.layered_surfaces |= !m.matte();
+    f.glass |= m.transmission.has_value();
+    f.see_through |= m.opacity.has_value();
+    f.normals |= m.normal.has_value();
+  }
   return f;
 }
 
@@ -129,8 +172,14 @@ CompiledScene compile(scene::Scene scene) {
     world.volumes.push_back(std::move(out));
   }
 
+  for (const scene::Material& m : world.scene.materials)
+    world.materials.push_back(compiled(m, world.scene.time));
+
   world.features = features_of(world);
-  world.geometry = std::make_unique<Geometry>(world.scene, world.origin, world.lights, world.volumes);
+  if (world.features.layered_surfaces)
+    world.albedo_tables = std::make_unique<const optics::AlbedoTables>(rough_etas(world));
+  world.geometry =
+      std::make_unique<Geometry>(world.scene, world.features, world.origin, world.lights, world.volumes);
   add_grids(world);
   return world;
 }

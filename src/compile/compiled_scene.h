@@ -5,6 +5,7 @@
 // origin.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "base/interval.h"
 #include "base/transform.h"
 #include "base/vec.h"
+#include "optics/albedo_tables.h"
 #include "scene/scene.h"
 
 namespace tyndall::compile {
@@ -32,6 +34,9 @@ struct SurfaceHit {
   Vec3d position_object, normal_object;         // the same in the shape's own space
   Vec3d shading_normal, shading_normal_object;  // unit; smoothed over a mesh that has normals
   Pair<double> uv;
+  // Images of normals along the axes of object space, for materials that set normals (Features::normals).
+  std::array<Vec3d, 3> normal_axes{};
+  bool sheet = false;                 // of a shape without an inside: glass is a pane
   std::uint32_t material = no_index;  // index of scene.materials, or no_index when a light was hit
   std::uint32_t light = no_index;     // index of lights when it is a light's surface
 };
@@ -51,6 +56,16 @@ struct Features {
        chromatic_extinction = false;
   bool medium_emission = false, delta_lights = false, area_lights = false, distant_discs = false,
        environment = false, surface_emission = false;
+  // Materials: beyond matte, glass among them, less than opaque, with normals of their own.
+  bool layered_surfaces = false, glass = false, see_through = false, normals = false;
+};
+
+// What the renderer asks of a material besides its program.
+struct CompiledMaterial {
+  bool matte = true;   // Lambert's law alone
+  bool opaque = true;  // no opacity
+  bool transmits = false;
+  double ior = 1.5;
 };
 
 // What marching asks of a medium besides its programs.
@@ -82,6 +97,8 @@ class CompiledScene {
   Vec3d origin;        // world position of render space's zero
   Features features;
   std::vector<CompiledMedium> media;
+  std::vector<CompiledMaterial> materials;
+  std::unique_ptr<const optics::AlbedoTables> albedo_tables;  // when there are layered surfaces
   std::vector<CompiledVolume> volumes;
   std::vector<optics::Light> lights;  // scene.lights, moved to render space
   std::unique_ptr<Geometry> geometry;

@@ -34,12 +34,16 @@ std::optional<scene::ShapeInstance> light_surface(const optics::Light& light) {
 
 }  // namespace
 
-Geometry::Geometry(const scene::Scene& scene, const Vec3d& origin, std::span<const optics::Light> lights,
-                   std::span<const CompiledVolume> volumes)
-    : meshes_(scene.meshes.begin(), scene.meshes.end()), world_(meshes_), volumes_(volumes) {
+Geometry::Geometry(const scene::Scene& scene, const Features& features, const Vec3d& origin,
+                   std::span<const optics::Light> lights, std::span<const CompiledVolume> volumes)
+    : meshes_(scene.meshes.begin(), scene.meshes.end()),
+      world_(meshes_, features.normals),
+      volumes_(volumes) {
+  if (features.glass)
+    for (CompiledMesh& mesh : meshes_) mesh.find_whether_closed();
   prototypes_.reserve(scene.prototypes.size());  // groups point to earlier ones
   for (const scene::Prototype& p : scene.prototypes) {
-    Group group(meshes_);
+    Group group(meshes_, features.normals);
     group.add(p.shapes);
     group.add(p.instances, prototypes_);
     group.finish();
@@ -77,6 +81,8 @@ std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) co
   hit.shading_normal = smooth ? normalize(found->shading_normal) : hit.normal;
   hit.shading_normal_object = smooth ? normalize(found->shading_normal_object) : hit.normal_object;
   hit.uv = found->uv;
+  hit.normal_axes = found->normal_axes;
+  hit.sheet = found->sheet;
   if (found->light == no_index)
     hit.material = found->material.index;
   else

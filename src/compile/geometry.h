@@ -16,8 +16,8 @@ class Geometry {
  public:
   // Keeps pointers to the elements of the scene's vectors and of `volumes`, which must not move (moving the
   // vectors themselves is fine). Lights are in render space, whose zero is `origin`.
-  Geometry(const scene::Scene& scene, const Vec3d& origin, std::span<const optics::Light> lights,
-           std::span<const CompiledVolume> volumes);
+  Geometry(const scene::Scene& scene, const Features& features, const Vec3d& origin,
+           std::span<const optics::Light> lights, std::span<const CompiledVolume> volumes);
 
   std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind) const;
   bool occluded(const Ray& ray, std::uint32_t target_light) const;

@@ -141,16 +141,21 @@ std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) co
   if (best < surfaces_.size()) {
     const PlacedSurface& s = surfaces_[best];
     const Transform to_group = group_from_object(s.surface->world_from_object, s.light);
-    return GroupHit{surface_hit.t,
-                    to_group.point(surface_hit.position),
-                    to_group.normal(surface_hit.normal),
-                    surface_hit.position,
-                    surface_hit.normal,
-                    to_group.normal(surface_hit.shading_normal),
-                    surface_hit.shading_normal,
-                    surface_hit.uv,
-                    s.surface->material,
-                    s.light};
+    GroupHit hit{surface_hit.t,
+                 to_group.point(surface_hit.position),
+                 to_group.normal(surface_hit.normal),
+                 surface_hit.position,
+                 surface_hit.normal,
+                 to_group.normal(surface_hit.shading_normal),
+                 surface_hit.shading_normal,
+                 surface_hit.uv,
+                 {},
+                 is_sheet(s.surface->shape, meshes_),
+                 s.surface->material,
+                 s.light};
+    if (keeps_axes_)
+      hit.normal_axes = {to_group.normal({1, 0, 0}), to_group.normal({0, 1, 0}), to_group.normal({0, 0, 1})};
+    return hit;
   }
   const PlacedInstance& i = instances_[best - surfaces_.size()];
   const Transform to_group = group_from_object(i.instance->world_from_object, no_index);
@@ -158,6 +163,8 @@ std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) co
   hit.position = to_group.point(hit.position);
   hit.normal = to_group.normal(hit.normal);
   hit.shading_normal = to_group.normal(hit.shading_normal);
+  if (keeps_axes_)
+    for (Vec3d& axis : hit.normal_axes) axis = to_group.normal(axis);
   if (!hit.material.valid()) hit.material = i.instance->material;
   return hit;
 }

@@ -2,6 +2,7 @@
 // which all its instances share. Rays are moved into the space of what they may meet, in double.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
@@ -28,7 +29,9 @@ struct GroupHit {
   Vec3d position_object, normal_object;         // in the shape's own space
   Vec3d shading_normal, shading_normal_object;  // zero: as the normal
   Pair<double> uv;
-  scene::MaterialId material;  // invalid: that of the instance
+  std::array<Vec3d, 3> normal_axes{};  // images of normals along the object's axes, where kept
+  bool sheet = false;                  // of a shape without an inside
+  scene::MaterialId material;          // invalid: that of the instance
   std::uint32_t light = no_index;
 };
 
@@ -40,8 +43,8 @@ struct GroupRay {
 
 class Group {
  public:
-  // Keeps the span: the meshes that shapes name.
-  explicit Group(std::span<const CompiledMesh> meshes) : meshes_(meshes) {}
+  // Keeps the span: the meshes that shapes name. `keeps_axes`: hits tell how normals are mapped.
+  Group(std::span<const CompiledMesh> meshes, bool keeps_axes) : meshes_(meshes), keeps_axes_(keeps_axes) {}
 
   // Adds things; a group is ready for rays after finish(). The scene's elements must stay where they are.
   // `offset` is the group's zero in the space that the things' transforms lead to.
@@ -75,6 +78,7 @@ class Group {
   void visit(const GroupRay& ray, Test&& test) const;
 
   std::span<const CompiledMesh> meshes_;
+  bool keeps_axes_;
   // Each: bounded ones first, in the tree's order; then those that reach to infinity.
   std::vector<PlacedSurface> surfaces_;
   std::vector<PlacedInstance> instances_;

@@ -233,4 +233,10 @@ std::optional<Bounds> bounds(const scene::Shape& shape, std::span<const Compiled
   return bounds(shape);
 }
 
+bool is_sheet(const scene::Shape& shape, std::span<const CompiledMesh> meshes) {
+  if (const auto* mesh = std::get_if<scene::Mesh>(&shape)) return !meshes[mesh->mesh.index].closed();
+  return std::holds_alternative<scene::Plane>(shape) || std::holds_alternative<scene::Quad>(shape) ||
+         std::holds_alternative<scene::Disk>(shape);
+}
+
 }  // namespace tyndall::compile

@@ -17,6 +17,9 @@ class CompiledMesh {
  public:
   // The mesh must stay where it is.
   explicit CompiledMesh(const scene::TriangleMesh& mesh);
+  // Whether the mesh has an inside; true until it was looked into, which only glass needs.
+  bool closed() const { return closed_; }
+  void find_whether_closed() { closed_ = scene::open_edges(*mesh_) == 0; }
 
   std::optional<ShapeHit> intersect(const Vec3d& origin, const Vec3d& direction, double t_max) const;
   // Appends the stays where the winding number is not zero, clipped to [0, t_max), in order.
@@ -30,6 +33,7 @@ class CompiledMesh {
   const scene::TriangleMesh* mesh_;
   Bounds bounds_;
   std::optional<BoundsTree> tree_;
+  bool closed_ = true;
 };
 
 // The queries of shape_queries.h, for meshes too.
@@ -38,5 +42,7 @@ std::optional<ShapeHit> intersect(const scene::Shape& shape, std::span<const Com
 void inside(const scene::Shape& shape, std::span<const CompiledMesh> meshes, const Vec3d& origin,
             const Vec3d& direction, double t_max, std::vector<Intervald>& out);
 std::optional<Bounds> bounds(const scene::Shape& shape, std::span<const CompiledMesh> meshes);
+// Whether the shape has no inside.
+bool is_sheet(const scene::Shape& shape, std::span<const CompiledMesh> meshes);
 
 }  // namespace tyndall::compile

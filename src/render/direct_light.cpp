@@ -146,19 +146,20 @@ void sample_surface_light(const compile::CompiledScene& world, const SurfacePoin
   float u_light = point[0];
   const std::uint32_t index = lights.sample(u_light);
   const optics::Light& light = world.lights[index];
-  const Vec3d& x = surface.offset_position;
+  const Vec3d& x = surface.transmits ? surface.position : surface.offset_position;
   const Vec3d pivot = optics::sample_pivot(light, point[3], point[4]).value_or(Vec3d{});
   const auto drawn = optics::sample_light(light, x, pivot, point[3], point[4]);
   if (!drawn) return;
-  const double cosine = dot(surface.normal, drawn->direction);
-  if (!(cosine > 0)) return;
+  const Rgb scattered = surface.value(drawn->direction);
+  if (is_black(scattered)) return;
   const double choice = lights.probability(index);
   double share = 1;
   if (continues && drawn->pdf_solid_angle > 0)
-    share = balance(samples, choice * drawn->pdf_solid_angle, cosine_pdf(cosine));
-  const Rgb contribution = weight * surface.reflectance * drawn->radiance_over_pdf *
-                           static_cast<float>(cosine / pi * share / (choice * samples));
-  if (!is_black(contribution)) worker.shadows.add(shadow_ray(x, *drawn, index, contribution, shadow_seed));
+    share = balance(samples, choice * drawn->pdf_solid_angle, surface.pdf(drawn->direction));
+  const Rgb contribution =
+      weight * scattered * drawn->radiance_over_pdf * static_cast<float>(share / (choice * samples));
+  if (!is_black(contribution))
+    worker.shadows.add(shadow_ray(surface.start(drawn->direction), *drawn, index, contribution, shadow_seed));
 }
 
 }  // namespace tyndall::render

@@ -13,13 +13,16 @@ namespace {
 
 using compile::CompiledScene;
 
-// Cuts the ray at every entry and exit and lays segments into the regions between, where some volume is.
+// Cuts the ray at every entry, exit and crossing and lays segments into the regions between, where some
+// volume is.
 void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
   m.regions.clear();
   m.scattering_stretches.clear();
   std::vector<double>& edges = worker.edges;
   edges.clear();
   for (const auto& i : m.intervals) edges.insert(edges.end(), {i.t0, i.t1});
+  if (!edges.empty())
+    for (const MarchCrossing& c : m.crossings) edges.push_back(c.t);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 
@@ -185,12 +188,20 @@ void add_coefficients(const CompiledScene& world, March& m) {
 
 // Transmittance at every segment's start, and ∫ T over every segment (into `reach`), each exact for constant
 // coefficients.
-void accumulate_transmittance(const std::vector<float>& sigma_t, const March& m,
+void accumulate_transmittance(int channel, const std::vector<float>& sigma_t, March& m,
                               std::vector<double>& transmittance, std::vector<double>& reach) {
   transmittance.resize(m.count + 1);
   reach.resize(m.count);
   double t = 1;
+  auto crossing = m.crossings.begin();
+  const auto cross_before = [&](double end) {
+    for (; crossing != m.crossings.end() && crossing->t <= end; ++crossing) {
+      crossing->before[channel] = static_cast<float>(t);
+      t *= crossing->pass;
+    }
+  };
   for (std::uint32_t i = 0; i < m.count; ++i) {
+    cross_before(m.t0[i]);
     transmittance[i] = t;
     const double sigma = sigma_t[i], depth = sigma * m.dt[i];
     reach[i] = t * m.dt[i];
@@ -200,6 +211,7 @@ void accumulate_transmittance(const std::vector<float>& sigma_t, const March& m,
     // cancel, T e^-depth.
     t = depth < 1 ? t - sigma * reach[i] : t * std::exp(-depth);
   }
+  cross_before(infinity);
   transmittance[m.count] = t;
 }
 
@@ -208,7 +220,7 @@ void accumulate(const CompiledScene& world, Worker& worker, March& m) {
   Vec3d emitted;
   for (int c = 0; c < m.channels; ++c) {
     if (c < m.extinction_channels)
-      accumulate_transmittance(m.sigma_t[c], m, m.transmittance[c], worker.reach);
+      accumulate_transmittance(c, m.sigma_t[c], m, m.transmittance[c], worker.reach);
     m.scattered[c].resize(m.count + 1);
     double s = 0;
     for (std::uint32_t i = 0; i < m.count; ++i) {
@@ -219,6 +231,8 @@ void accumulate(const CompiledScene& world, Worker& worker, March& m) {
     if (world.features.medium_emission)
       for (std::uint32_t i = 0; i < m.count; ++i) emitted[c] += m.emission[c][i] * worker.reach[i];
   }
+  if (m.extinction_channels == 1)
+    for (MarchCrossing& crossing : m.crossings) crossing.before = Rgb(crossing.before.x);
   m.emitted = m.channels == 1 ? Rgb(static_cast<float>(emitted.x)) : Rgb(emitted);
 }
 

@@ -37,6 +37,13 @@ struct Block {
   bool holds(std::uint32_t segment) const { return first <= segment && segment < first + count; }
 };
 
+// Where the ray goes through a surface, of which `pass` lets it: transmittance falls there at once.
+struct MarchCrossing {
+  double t = 0;
+  float pass = 1;
+  Rgb before{};  // transmittance from the ray's start to the surface: set by the march
+};
+
 // Segments of one ray, structure of arrays; a colour quantity has one row when no medium of the scene is
 // chromatic. Edges increase, transmittance never rises.
 struct March {
@@ -54,6 +61,7 @@ struct March {
   const float* pool = nullptr;                  // the worker's: holds until its next march
   std::vector<Intervald> scattering_stretches;  // of the regions that scatter
   std::vector<compile::VolumeInterval> intervals;
+  std::vector<MarchCrossing> crossings;  // in order of t; given by who asks for the march
 
   bool scatters() const { return !scattering_stretches.empty(); }
   Rgb end_transmittance() const { return rgb(transmittance, extinction_channels, count); }

@@ -10,6 +10,7 @@
 #include "base/numerics.h"
 #include "optics/light_sampling.h"
 #include "render/decisions.h"
+#include "render/light_met.h"
 #include "render/path_state.h"
 #include "render/worker.h"
 
@@ -95,7 +96,11 @@ class PathTracer {
     path.current ^= 1;
     ++worker_.statistics.rays;
     const RayKind kind = s.origin.kind == PathOrigin::Kind::camera ? RayKind::camera : RayKind::scattered;
-    path.hit = world_.closest_hit(s.ray, kind);
+    path.hit = world_.features.see_through ? trace_through(world_, s.ray, kind, worker_, path.crossings)
+                                           : world_.closest_hit(s.ray, kind);
+    std::vector<MarchCrossing>& crossings = path.march().crossings;
+    crossings.clear();
+    for (const Crossing& c : path.crossings) crossings.push_back({c.t, 1 - c.surface.opacity});
     s.ray.t_max = path.hit ? path.hit->t : infinity;
     path_ = &path;
     worker_.march_requests.push_back(
@@ -107,7 +112,6 @@ class PathTracer {
     path_ = &slot(i);
     PathState& s = path_->state;
     const March& m = path_->march();
-    const auto& hit = path_->hit;
     if (trace_)
       say("{}depth {} ray from ({:.6g}, {:.6g}, {:.6g}) along ({:.6g}, {:.6g}, {:.6g}): {} segments, "
           "transmittance {:.6g}, throughput {:.6g}\n",
@@ -116,47 +120,61 @@ class PathTracer {
           s.ray.direction.y, s.ray.direction.z, m.count, luminance(m.end_transmittance()),
           luminance(s.throughput));
 
-    const LightPart part = s.part(s.depth);
-    add(s.throughput * m.emitted, s.depth == 0 && s.branch == 0 ? LightPart::volume_emission : part,
-        "emission of media");
+    const bool first = s.depth == 0 && s.branch == 0;
+    add(s.throughput * m.emitted, first ? LightPart::volume_emission : s.part(s.depth), "emission of media");
+    meet_surfaces(s, m);
+    if (!aovs_.empty()) record(s, m);
+    if (s.depth > static_cast<std::uint32_t>(settings_.bounces)) {
+      const Rgb carried = s.throughput * m.total_scattered() + met_.scattered();
+      worker_.statistics.cut_paths += m.scatters() || !met_.empty();
+      worker_.statistics.cut_throughput += max_component(carried);
+      return false;
+    }
+    const bool continues =
+        s.depth < static_cast<std::uint32_t>(settings_.bounces) || settings_.gathers_after_last;
+    return scatter(s, m, path_->light(), continues);
+  }
+
+  // The surfaces that the ray goes through, and what it ends at. Adds their light.
+  void meet_surfaces(const PathState& s, const March& m) {
+    met_.clear();
+    const auto meet = [&](const SurfacePoint& point, const Rgb& throughput) {
+      add(throughput * point.emission, s.part(s.depth), "emission of a surface");
+      met_.add(point, throughput);
+    };
+    for (std::size_t k = 0; k < path_->crossings.size(); ++k) {
+      const SurfacePoint& point = path_->crossings[k].surface;
+      meet(point, s.throughput * m.crossings[k].before * point.opacity);
+    }
     const Rgb at_end = s.throughput * m.end_transmittance();
-    std::optional<SurfacePoint> surface;
+    const auto& hit = path_->hit;
     if (!hit) {
       gather_infinity(s, at_end);
     } else if (hit->light != compile::no_index) {
       gather_light(s, *hit, at_end);
     } else {
-      surface = evaluate_surface(world_, *hit, s.ray.direction, worker_);
-      add(at_end * surface->emission, part, "emission of a surface");
+      end_surface_ = evaluate_surface(world_, *hit, s.ray.direction, worker_);
+      meet(*end_surface_, at_end);
     }
-
-    if (!aovs_.empty()) record(s, m, surface);
-    if (s.depth > static_cast<std::uint32_t>(settings_.bounces)) {
-      worker_.statistics.cut_paths += m.scatters() || surface;
-      worker_.statistics.cut_throughput += max_component(s.throughput * m.total_scattered() +
-                                                         (surface ? at_end * surface->reflectance : Rgb{}));
-      return false;
-    }
-    const bool continues =
-        s.depth < static_cast<std::uint32_t>(settings_.bounces) || settings_.gathers_after_last;
-    return scatter(s, m, path_->light(), surface, at_end, continues);
   }
 
   // What the outputs beside the picture keep of a ray.
-  void record(const PathState& s, const March& m, const std::optional<SurfacePoint>& surface) {
+  void record(const PathState& s, const March& m) {
     AovSample& out = aovs_[path_->sample];
     out.cost += 1 + m.count;
     if (s.depth > 0) return;
     out.transmittance = m.end_transmittance();
     out.optical_depth = m.optical_depth();
-    out.albedo = m.total_scattered();
-    out.met_surface = path_->hit.has_value();
-    if (path_->hit) {
-      out.depth = path_->hit->t;
-      const Vec3d& n = path_->hit->normal;
+    out.albedo = m.total_scattered() + met_.scattered();
+    const auto meet = [&](double t, const Vec3d& n) {
+      out.met_surface = true;
+      out.depth = t;
       out.normal = Vec3f(dot(n, s.ray.direction) > 0 ? -n : n);
-    }
-    if (surface) out.albedo += out.transmittance * surface->reflectance;
+    };
+    if (path_->hit) meet(path_->hit->t, path_->hit->normal);
+    // The nearest one that is mostly there hides those behind it.
+    for (auto c = path_->crossings.rbegin(); c != path_->crossings.rend(); ++c)
+      if (c->surface.opacity >= 0.5f) meet(c->t, c->surface.normal);
   }
 
   void trace_shadows() {
@@ -173,13 +191,10 @@ class PathTracer {
     worker_.shadows.clear();
   }
 
-  // Direct light in the volume and on the surface, and the choice of the next ray.
-  bool scatter(PathState& s, const March& m, LightStrategies& strategies,
-               const std::optional<SurfacePoint>& surface, const Rgb& at_end, bool continues) {
-    const Rgb in_volume = s.throughput * m.total_scattered();
-    const Rgb on_surface = surface ? at_end * surface->reflectance : Rgb{};
-    const double volume_mass = std::max(0.0f, luminance(in_volume)),
-                 surface_mass = std::max(0.0f, luminance(on_surface));
+  // Direct light in the volume and on a surface, and the choice of the next ray.
+  bool scatter(PathState& s, const March& m, LightStrategies& strategies, bool continues) {
+    const double volume_mass = std::max(0.0f, luminance(s.throughput * m.total_scattered())),
+                 surface_mass = met_.mass();
     if (!(volume_mass + surface_mass > 0)) return false;
     const bool both =
         s.origin.kind == PathOrigin::Kind::camera;  // camera rays follow both, deeper ones choose
@@ -187,13 +202,15 @@ class PathTracer {
     strategies.set(world_, m, s.throughput, settings_.distance);
     if (volume_mass > 0) light_volume(s, strategies, continues, volume_probability);
 
-    const bool to_surface =
-        surface_mass > 0 && (both || point(Decision::end_or_volume, s, 1)[0] >= volume_probability);
-    if (to_surface) {
+    const double u = both && !met_.several() ? 0 : point(Decision::end_or_volume, s, 1)[0];
+    if (surface_mass > 0 && (both || u >= volume_probability)) {
+      const double part = both ? u : (u - volume_probability) / (1 - volume_probability);
+      const MetSurface& surface = met_.choose(part);
+      const double probability = surface.mass / surface_mass * (both ? 1 : 1 - volume_probability);
       PathState next = s;
-      next.throughput = at_end * static_cast<float>(both ? 1 : 1 / (1 - volume_probability));
-      light_surface(next, *surface, continues);
-      const bool goes_on = continues && continue_from_surface(next, *surface);
+      next.throughput = surface.throughput * static_cast<float>(1 / probability);
+      light_surface(next, *surface.point, continues);
+      const bool goes_on = continues && continue_from_surface(next, *surface.point);
       if (!both || volume_mass <= 0) {
         s = next;
         return goes_on;
@@ -226,6 +243,7 @@ class PathTracer {
   }
 
   void light_surface(const PathState& s, const SurfacePoint& surface, bool continues) {
+    if (surface.only_deltas) return;
     LightChoice& lights = worker_.surface_lights;
     lights.set(world_, surface.position, surface.normal, 0, 0);
     if (lights.empty()) return;
@@ -262,16 +280,16 @@ class PathTracer {
   }
 
   bool continue_from_surface(PathState& s, const SurfacePoint& surface) {
-    const SobolPoint v = point(Decision::direction, s, 2);
-    const Vec3d w = sample_cosine(surface.normal, v[0], v[1]);
-    s.throughput *= surface.reflectance;  // (reflectance / pi) cosine / pdf
-    s.origin = {PathOrigin::Kind::surface,
-                surface.offset_position,
-                cosine_pdf(dot(surface.normal, w)),
-                nullptr,
-                0,
-                0};
-    s.ray = {surface.offset_position, w, infinity};
+    const SobolPoint v = point(Decision::direction, s, surface.model ? 4 : 2);
+    const auto next = surface.sample(v[2], v[0], v[1], v[3]);
+    if (!next) return false;
+    s.throughput *= next->weight;
+    const Vec3d& start = surface.start(next->direction);
+    s.origin = {
+        next->delta ? PathOrigin::Kind::delta : PathOrigin::Kind::surface, start, next->pdf, nullptr, 0, 0};
+    s.ray = {start, next->direction, infinity};
+    if (surface.transmits && dot(surface.normal, next->direction) < 0)
+      s.index_scale *= static_cast<float>(sqr(surface.eta));
     s.branch = s.branch || s.depth == 0;
     return next_depth(s);
   }
@@ -281,8 +299,8 @@ class PathTracer {
   // one path in thousands.
   bool next_depth(PathState& s) {
     ++s.depth;
-    const float carried =
-        max_component(Rgb{std::abs(s.throughput.x), std::abs(s.throughput.y), std::abs(s.throughput.z)});
+    const Rgb size{std::abs(s.throughput.x), std::abs(s.throughput.y), std::abs(s.throughput.z)};
+    const float carried = max_component(size) * s.index_scale;
     if (!(carried > 0)) return false;
     if (s.depth < first_roulette) return true;
     const float survival = std::clamp(carried, least_survival, 1.0f);
@@ -306,28 +324,8 @@ class PathTracer {
       add(at_end * radiance * weight(s, hit.light, hit.position, hit.normal), s.part(s.depth), "a light met");
   }
 
-  // MIS weight of meeting a light by the path's own continuation, against sampling it directly.
   float weight(const PathState& s, std::uint32_t light, const Vec3d& y, const Vec3d& normal) {
-    // The path was at depth - 1 when it was scattered towards this light.
-    const int samples = s.depth == 1 ? settings_.light_samples : 1;
-    switch (s.origin.kind) {
-      case PathOrigin::Kind::camera:
-        return 1;
-      case PathOrigin::Kind::volume: {
-        const double p = s.origin.strategies->pdf(light, s.origin.segment, s.origin.t, s.ray.direction, y,
-                                                  normal, worker_);
-        return static_cast<float>(1 - balance(samples, p, s.origin.pdf));
-      }
-      case PathOrigin::Kind::surface: {
-        const double solid_angle =
-            optics::pdf_light(world_.lights[light], s.origin.position, s.ray.direction, y, normal);
-        if (solid_angle == 0) return 1;
-        worker_.surface_lights.set(world_, s.origin.position, s.ray.direction, 0, 0);
-        const double p = worker_.surface_lights.probability(light) * solid_angle;
-        return static_cast<float>(1 - balance(samples, p, s.origin.pdf));
-      }
-    }
-    return 1;
+    return weight_of_met_light(world_, settings_.light_samples, s, light, y, normal, worker_);
   }
 
   // Until this many scatterings no roulette. In the three first scenes 5 was 6-55 % more efficient than 1,
@@ -369,6 +367,9 @@ class PathTracer {
   std::size_t active_ = 0, started_ = 0;  // slots in use: the first; samples begun: the first
   std::vector<bool> ended_;               // of the slots that advanced in this round
   PathSlot* path_ = nullptr;              // the one at work
+  // Of its ray.
+  MetSurfaces met_;
+  std::optional<SurfacePoint> end_surface_;
 };
 
 }  // namespace

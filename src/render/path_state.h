@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "base/sampler.h"
 #include "compile/compiled_scene.h"
 #include "render/aov.h"
+#include "render/crossings.h"
 #include "render/direct_light.h"
 #include "render/march.h"
 
@@ -14,7 +16,8 @@ namespace tyndall::render {
 
 // Where a ray comes from, as far as the MIS weight of what it meets needs to know.
 struct PathOrigin {
-  enum class Kind : std::uint8_t { camera, volume, surface } kind = Kind::camera;
+  // delta: a mirror or smooth glass, for which light is not sampled.
+  enum class Kind : std::uint8_t { camera, volume, surface, delta } kind = Kind::camera;
   Vec3d position;
   double pdf = 0;                               // volume: per metre and steradian; surface: per steradian
   const LightStrategies* strategies = nullptr;  // volume: of the ray that was scattered
@@ -26,6 +29,9 @@ struct PathOrigin {
 struct PathState {
   compile::Ray ray;
   Rgb throughput{1};
+  // Product of the squared relative indices of the boundaries passed: radiance in glass is larger by it,
+  // which roulette must not take for throughput.
+  float index_scale = 1;
   std::uint32_t depth = 0;  // scatterings so far
   std::uint32_t branch = 0;
   bool first_in_volume = false;  // the first scattering was in a medium
@@ -43,7 +49,8 @@ struct PathSlot {
   PathState state;
   std::uint32_t sample = 0;  // the caller's number of the camera sample
   std::optional<Sampler> sampler;
-  std::optional<compile::SurfaceHit> hit;  // of the current ray
+  std::optional<compile::SurfaceHit> hit;  // of the current ray, its end
+  std::vector<Crossing> crossings;         // surfaces that it goes through before
   // Of the current ray and of the one before, which weights what the current one meets.
   March marches[2];
   LightStrategies strategies[2];

@@ -16,58 +16,161 @@ float clamped(float v, float highest, std::uint32_t material, std::size_t output
   return v > 0 ? highest : 0.0f;
 }
 
+// Outputs of a material's program at a hit, clamped to what the renderer can take.
+class MaterialAt {
+ public:
+  MaterialAt(const compile::CompiledScene& world, const compile::SurfaceHit& hit, Worker& worker)
+      : index_(hit.material), material_(world.scene.materials[hit.material]), worker_(worker) {
+    const Vec3d P = hit.position + world.origin;
+    const std::array<double, vm::input_count> values{hit.position_object.x,
+                                                     hit.position_object.y,
+                                                     hit.position_object.z,
+                                                     P.x,
+                                                     P.y,
+                                                     P.z,
+                                                     hit.shading_normal_object.x,
+                                                     hit.shading_normal_object.y,
+                                                     hit.shading_normal_object.z,
+                                                     hit.shading_normal.x,
+                                                     hit.shading_normal.y,
+                                                     hit.shading_normal.z,
+                                                     hit.uv.x,
+                                                     hit.uv.y,
+                                                     world.scene.time};
+    std::array<float, vm::input_count> floats;
+    vm::BatchInputs inputs;
+    for (std::size_t i = 0; i < floats.size(); ++i) {
+      floats[i] = static_cast<float>(values[i]);
+      inputs.lanes[i] = &floats[i];
+    }
+    std::vector<float>& results = worker.material_outputs;
+    results.resize(material_.program.outputs.size());
+    worker.outputs.clear();
+    for (float& result : results) worker.outputs.push_back(&result);
+    worker.machine.run(material_.program, inputs, 1, worker.outputs);
+  }
+
+  float number(const std::optional<std::uint8_t>& output, float standard) const {
+    if (!output) return standard;
+    return clamped(worker_.material_outputs[*output], 1.0f, index_, *output, worker_);
+  }
+  Rgb color(const scene::RgbOutputs& outputs, float highest) const {
+    Rgb c;
+    for (std::size_t k = 0; k < 3; ++k)
+      c[k] = clamped(worker_.material_outputs[outputs[k]], highest, index_, outputs[k], worker_);
+    return c;
+  }
+  // A direction of any length; zero where it is not finite.
+  Vec3d direction(const scene::RgbOutputs& outputs) const {
+    Vec3d v;
+    for (std::size_t k = 0; k < 3; ++k) v[k] = double{worker_.material_outputs[outputs[k]]};
+    if (all_finite(v)) return v;
+    worker_.bad_values.add_material(index_, outputs[0], BadValue::Kind::not_finite);
+    return {};
+  }
+
+ private:
+  std::uint32_t index_;
+  const scene::Material& material_;
+  Worker& worker_;
+};
+
+// The normal to shade with, on the side of the ray: bent towards it where it looks away, as smoothed ones do
+// at silhouettes.
+Vec3d facing(const Vec3d& shading, const Vec3d& geometric, bool flipped, const Vec3d& direction) {
+  constexpr double least_cosine = 1e-3;  // a grazing angle that is far above rounding
+  const Vec3d n = flipped ? -shading : shading;
+  const double cosine = -dot(n, direction);
+  if (cosine >= least_cosine || n == geometric) return n;
+  return normalize(n + direction * (cosine - least_cosine));
+}
+
 }  // namespace
 
 SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile::SurfaceHit& hit,
                               const Vec3d& direction, Worker& worker) {
-  SurfacePoint point;
-  point.position = hit.position;
-  point.normal = dot(hit.normal, direction) > 0 ? -hit.normal : hit.normal;
-  point.offset_position = hit.position + point.normal * compile::surface_offset(world, hit.position);
+  const scene::Material& material = world.scene.materials[hit.material];
+  const compile::CompiledMaterial& compiled = world.materials[hit.material];
+  const MaterialAt at(world, hit, worker);
 
-  const std::uint32_t index = hit.material;
-  const scene::Material& material = world.scene.materials[index];
-  const Vec3d P = hit.position + world.origin;
-  const std::array<double, vm::input_count> values{hit.position_object.x,
-                                                   hit.position_object.y,
-                                                   hit.position_object.z,
-                                                   P.x,
-                                                   P.y,
-                                                   P.z,
-                                                   hit.shading_normal_object.x,
-                                                   hit.shading_normal_object.y,
-                                                   hit.shading_normal_object.z,
-                                                   hit.shading_normal.x,
-                                                   hit.shading_normal.y,
-                                                   hit.shading_normal.z,
-                                                   hit.uv.x,
-                                                   hit.uv.y,
-                                                   world.scene.time};
-  std::array<float, vm::input_count> floats;
-  vm::BatchInputs inputs;
-  for (std::size_t i = 0; i < floats.size(); ++i) {
-    floats[i] = static_cast<float>(values[i]);
-    inputs.lanes[i] = &floats[i];
+  SurfacePoint point;
+  const bool from_inside = dot(hit.normal, direction) > 0;
+  const Vec3d off = hit.normal * compile::surface_offset(world, hit.position);
+  point.position = hit.position;
+  point.normal = from_inside ? -hit.normal : hit.normal;
+  point.offset_position = from_inside ? hit.position - off : hit.position + off;
+  point.behind_position = from_inside ? hit.position + off : hit.position - off;
+  point.opacity = at.number(material.opacity, 1);
+  if (material.emission) point.emission = at.color(*material.emission, largest_value);
+
+  Vec3d shading = hit.shading_normal;
+  if (material.normal) {
+    const Vec3d n = at.direction(*material.normal);
+    const Vec3d mapped = hit.normal_axes[0] * n.x + hit.normal_axes[1] * n.y + hit.normal_axes[2] * n.z;
+    if (length_squared(mapped) > 0) shading = normalize(mapped);
   }
-  std::vector<float>& results = worker.material_outputs;
-  results.resize(material.program.outputs.size());
-  worker.outputs.clear();
-  for (float& result : results) worker.outputs.push_back(&result);
-  worker.machine.run(material.program, inputs, 1, worker.outputs);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::uint8_t color = material.base_color[c];
-    point.reflectance[c] = clamped(results[color], 1.0f, index, color, worker);
-    if (!material.emission) continue;
-    const std::uint8_t emission = (*material.emission)[c];
-    point.emission[c] = clamped(results[emission], largest_value, index, emission, worker);
+  // A normal that a body turned inwards on both sides alike is meant outwards.
+  if (dot(shading, hit.normal) < 0) shading = -shading;
+  point.frame = Frame<double>::around(facing(shading, point.normal, from_inside, direction));
+
+  const Rgb base_color = at.color(material.base_color, 1.0f);
+  if (compiled.matte) {
+    point.reflectance = base_color;
+    return point;
   }
+  optics::SurfaceParameters p;
+  p.base_color = base_color;
+  p.metallic = at.number(material.metallic, p.metallic);
+  p.roughness = at.number(material.roughness, p.roughness);
+  p.specular = at.number(material.specular, p.specular);
+  p.transmission = at.number(material.transmission, p.transmission);
+  p.coat = at.number(material.coat, p.coat);
+  if (material.sheen) p.sheen = at.color(*material.sheen, 1.0f);
+  if (p.diffuse()) {
+    point.reflectance = base_color;
+    return point;
+  }
+  const double eta = hit.sheet || !from_inside ? compiled.ior : 1 / compiled.ior;
+  if (!hit.sheet) point.eta = eta;
+  point.model.emplace(*world.albedo_tables, p, eta, hit.sheet, point.frame.local(-direction));
+  point.reflectance = point.model->albedo();
+  point.transmits = point.model->transmits();
+  point.only_deltas = point.model->only_deltas();
   return point;
 }
 
-Vec3d sample_cosine(const Vec3d& normal, float u0, float u1) {
-  const double r = std::sqrt(double{u0}), phi = 2 * pi * u1;
-  return Frame<double>::around(normal).world(
-      {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - double{u0})});
+float evaluate_opacity(const compile::CompiledScene& world, const compile::SurfaceHit& hit, Worker& worker) {
+  const scene::Material& material = world.scene.materials[hit.material];
+  return material.opacity ? MaterialAt(world, hit, worker).number(material.opacity, 1) : 1.0f;
+}
+
+Rgb SurfacePoint::value(const Vec3d& direction) const {
+  const Vec3d i = frame.local(direction);
+  const bool before = dot(normal, direction) > 0;
+  if (before != (i.z > 0)) return {};
+  if (model) return model->value(i);
+  return before ? reflectance * static_cast<float>(i.z / pi) : Rgb{};
+}
+
+double SurfacePoint::pdf(const Vec3d& direction) const {
+  const Vec3d i = frame.local(direction);
+  if (model) return model->pdf(i);
+  return i.z > 0 ? i.z / pi : 0.0;
+}
+
+std::optional<optics::SurfaceSample> SurfacePoint::sample(float u_layer, float u0, float u1, float u2) const {
+  std::optional<optics::SurfaceSample> out;
+  if (model) {
+    out = model->sample(u_layer, u0, u1, u2);
+    if (!out) return std::nullopt;
+  } else {
+    const Vec3d i = optics::sample_cosine_hemisphere(u0, u1);
+    out = optics::SurfaceSample{i, reflectance, i.z / pi, false};  // (reflectance / pi) cosine / pdf
+  }
+  const bool before = out->direction.z > 0;
+  out->direction = frame.world(out->direction);
+  if (before != (dot(normal, out->direction) > 0)) return std::nullopt;
+  return out;
 }
 
 }  // namespace tyndall::render

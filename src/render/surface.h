@@ -1,27 +1,44 @@
-// A point of a surface with its material evaluated: a Lambertian reflector that may emit.
+// A point of a surface with its material evaluated: what it emits and how it scatters, in world directions.
 #pragma once
+
+#include <optional>
 
 #include "base/numerics.h"
 #include "base/vec.h"
 #include "compile/compiled_scene.h"
+#include "optics/surface_model.h"
 
 namespace tyndall::render {
 
 struct Worker;
 
 struct SurfacePoint {
-  Vec3d position, normal;  // the normal on the side of the ray that met it, unit
-  Vec3d offset_position;   // off the surface, where rays that leave it start
-  Rgb reflectance;         // in [0, 1]
-  Rgb emission;            // [W/m²/sr]
+  Vec3d position, normal;  // the geometric normal on the side of the ray that met it, unit
+  // Off the surface before and behind it, where rays that leave it start.
+  Vec3d offset_position, behind_position;
+  Rgb emission;       // [W/m²/sr]
+  Rgb reflectance;    // about what part of the light is scattered on, in [0, 1]
+  float opacity = 1;  // all else is of the part that is there
+  double eta = 1;     // index behind over that before; 1 where no light goes to another medium
+  bool transmits = false, only_deltas = false;
+  Frame<double> frame;                        // z: the normal to shade with
+  std::optional<optics::SurfaceModel> model;  // none: Lambert's law with `reflectance`
+
+  const Vec3d& start(const Vec3d& direction) const {
+    return dot(normal, direction) > 0 ? offset_position : behind_position;
+  }
+  // The BSDF times the cosine for light from `direction`, and the density of `sample`; without deltas.
+  // Nothing passes where the normal to shade with and the geometric one disagree about the side.
+  Rgb value(const Vec3d& direction) const;
+  double pdf(const Vec3d& direction) const;
+  // Draws the direction of a ray that goes on, from (layer, 2 of the direction, choice).
+  std::optional<optics::SurfaceSample> sample(float u_layer, float u0, float u1, float u2) const;
 };
 
 // Runs the material's program at a hit by a ray of this direction.
 SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile::SurfaceHit& hit,
                               const Vec3d& direction, Worker& worker);
-
-// Density per solid angle of the cosine-weighted directions that `sample_cosine` draws.
-inline double cosine_pdf(double cosine) { return cosine > 0 ? cosine / pi : 0.0; }
-Vec3d sample_cosine(const Vec3d& normal, float u0, float u1);
+// The opacity alone.
+float evaluate_opacity(const compile::CompiledScene& world, const compile::SurfaceHit& hit, Worker& worker);
 
 }  // namespace tyndall::render

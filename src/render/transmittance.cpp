@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/numerics.h"
+#include "render/crossings.h"
 #include "render/estimators.h"
 #include "render/medium_lanes.h"
 #include "render/worker.h"
@@ -35,10 +36,11 @@ std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& worl
   stays_.clear();
   for (std::uint32_t r = 0; r < rays_.size(); ++r) {
     ++worker.statistics.shadow_rays;
-    if (world.occluded(rays_[r].ray, rays_[r].target_light))
+    if (world.features.see_through)
+      rays_[r].contribution *= pass_to_light(world, rays_[r].ray, rays_[r].target_light, worker);
+    else if (world.occluded(rays_[r].ray, rays_[r].target_light))
       rays_[r].contribution = {};
-    else if (world.features.volumes)
-      collect_stays(world, r, method, worker);
+    if (world.features.volumes && !is_black(rays_[r].contribution)) collect_stays(world, r, method, worker);
   }
   march_stays(world, worker);
 

@@ -128,6 +128,15 @@ void print_material(Printer& p, const Material& m) {
   p.item("name", m.name);
   p.item("base_color", m.base_color);
   p.item("emission", m.emission);
+  p.item("metallic", m.metallic);
+  p.item("roughness", m.roughness);
+  p.item("specular", m.specular);
+  p.item("transmission", m.transmission);
+  p.item("coat", m.coat);
+  p.item("ior", m.ior);
+  p.item("opacity", m.opacity);
+  p.item("sheen", m.sheen);
+  p.item("normal", m.normal);
   p.program("program", m.program);
 }
 

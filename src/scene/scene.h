@@ -193,15 +193,24 @@ using Shape = std::variant<Sphere, Box, Plane, Quad, Disk, Cylinder, Mesh>;
 
 // ------------------------------------------------------------------------------------------------- materials
 
-// A diffuse surface whose colour may be a program of p n P N uv time. (Further models come with later
-// issues.)
+// A surface whose parameters may be programs of p n P N uv time. Optional ones are outputs of the program;
+// absent ones have their defaults (optics::SurfaceParameters) and cost nothing. What they mean: shader's
+// table of material outputs.
 struct Material {
   std::string name;
   Span definition;
   vm::Program program;
-  std::array<std::uint8_t, 3> base_color{};             // outputs of the program; reflectance in [0, 1]
-  std::optional<std::array<std::uint8_t, 3>> emission;  // emitted radiance [W/m²/sr], both sides
-  std::vector<Span> output_spans;                       // one per output, for reports on bad values
+  RgbOutputs base_color{};             // reflectance in [0, 1]
+  std::optional<RgbOutputs> emission;  // emitted radiance [W/m²/sr], both sides
+  std::optional<std::uint8_t> metallic, roughness, specular, transmission, coat;  // in [0, 1]
+  std::optional<std::uint8_t> ior;      // >= 1; one value for the whole surface
+  std::optional<std::uint8_t> opacity;  // in [0, 1]
+  std::optional<RgbOutputs> sheen;      // in [0, 1]
+  std::optional<RgbOutputs> normal;     // shading normal in object space, of any length
+  std::vector<Span> output_spans;       // one per output, for reports on bad values
+
+  // Lambert's law alone.
+  bool matte() const { return !metallic && !specular && !transmission && !coat && !sheen; }
 };
 using MaterialId = Id<Material>;
 

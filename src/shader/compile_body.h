@@ -23,8 +23,8 @@ struct Options {
 std::optional<scene::Medium> compile_medium(eval::Context& context, const eval::Body& body,
                                             const Options& options);
 
-// The same for base_color and emission; inputs p n P N uv time. Other outputs of the language are read,
-// checked, and warned of: surfaces are diffuse until a later issue.
+// The same for a material, by the table of its outputs; inputs p n P N uv time. Outputs that are not set, or
+// set to their defaults, are left out of the program.
 std::optional<scene::Material> compile_material(eval::Context& context, const eval::Body& body,
                                                 const Options& options);
 

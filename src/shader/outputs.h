@@ -17,7 +17,8 @@ struct OutputRule {
   bool widens = true;  // a number stands for a grey colour
   double lowest = 0;   // known values below or above are errors
   double highest = 0;
-  std::string_view range;  // as in messages: "in [0, 1]"
+  std::string_view range;                              // as in messages: "in [0, 1]"
+  std::string_view documentation = {}, standard = {};  // for the manual: what it is, its default
 };
 
 // What media and materials may set.

@@ -12,6 +12,7 @@
 #include "resolve/parameters.h"
 #include "resolve/resolve.h"
 #include "resolve/statements.h"
+#include "shader/material_outputs.h"
 #include "syntax/parser.h"
 
 namespace tyndall::docs {
@@ -105,10 +106,20 @@ std::string builtins() {
   return text + "\n";
 }
 
+std::string materials() {
+  std::string text = "\n| output | is | default |\n| --- | --- | --- |\n";
+  for (const shader::OutputRule& rule : shader::material_outputs())
+    text += fmt::format("| {} | {}{} | {} |\n", in_code(rule.name), cell(rule.documentation),
+                        rule.range == "a direction" ? "" : fmt::format(", {}", cell(rule.range)),
+                        cell(rule.standard));
+  return text + "\n";
+}
+
 TEST(Manual, TablesAreCurrent) {
   const Tables tables = statements();
   expect_part(manual, "statements", tables.text + "\n");
   expect_part(manual, "builtins", builtins());
+  expect_part(manual, "materials", materials());
 }
 
 TEST(Manual, EveryStatementHasATable) {
