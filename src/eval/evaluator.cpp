@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/check.h"
 #include "eval/calls.h"
 #include "eval/operators.h"
 #include "vm/machine.h"
@@ -245,9 +246,7 @@ struct Dispatch {
 
   Value operator()(const TupleExpr& e) const {
     const auto elements = tree.list_of_exprs(e.elements);
-    if (elements.size() != 2 && elements.size() != 3)
-      return ev.error(span, fmt::format("a group of {} values", elements.size()),
-                      "(x, y) is a pair, (x, y, z) a vec; longer lists are written [a, b, c, d]");
+    CHECK(elements.size() == 2 || elements.size() == 3);  // as parsed
     Value result = Value::of(elements.size() == 2 ? Type::pair : Type::vec, {});
     bool failed = false;
     for (std::size_t i = 0; i < elements.size(); ++i) {

@@ -166,7 +166,7 @@ class Evaluator {
   };
   class Nested;  // counts the nesting of evaluations
 
-  Value input(Special special, Span span);
+  Value input(Special special);
   Value value_of_name(syntax::SymbolId symbol, Span span, const Scope& scope);
   Value unknown_name(syntax::SymbolId symbol, Span span, const Scope* scope,
                      std::span<const syntax::SymbolId> locals, std::optional<syntax::BodyKind> inputs = {});

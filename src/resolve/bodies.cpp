@@ -19,6 +19,22 @@ std::optional<eval::Body> body_of(Run& run, const Thing& thing) {
   return run.evaluator.bound(*body, thing.span);
 }
 
+// Whether a body says anything of how much light passes through.
+bool sets_transparency(const Run& run, const syntax::SyntaxTree& tree, syntax::BlockId block) {
+  const auto items = tree.list_of_items(tree[block].items);
+  return std::any_of(items.begin(), items.end(), [&](syntax::ItemId id) {
+    const auto& node = tree[id].node;
+    if (const auto* loop = std::get_if<syntax::ForItem>(&node))
+      return sets_transparency(run, tree, loop->body);
+    if (const auto* choice = std::get_if<syntax::IfItem>(&node))
+      return sets_transparency(run, tree, choice->then_block) ||
+             (choice->else_block.valid() && sets_transparency(run, tree, choice->else_block));
+    const auto* assign = std::get_if<syntax::AssignItem>(&node);
+    const std::string_view name = assign ? run.symbols.text(assign->name.symbol) : "";
+    return name == "transmission" || name == "opacity";
+  });
+}
+
 }  // namespace
 
 scene::MediumId medium_of(Run& run, const Thing& thing) {
@@ -42,6 +58,8 @@ scene::MaterialId material_of(Run& run, const Thing& thing) {
     if (auto material = shader::compile_material(run.context, *body, run.options.shader)) {
       run.scene.materials.push_back(std::move(*material));
       known->second = scene::MaterialId(run.scene.materials.size() - 1);
+      if (sets_transparency(run, *body->tree, body->block))
+        run.bodies.may_let_through.insert(known->second.index);
     }
   }
   // Only values that a name holds come again; the others would fill the memory.

@@ -8,6 +8,7 @@
 
 #include "base/overloaded.h"
 #include "resolve/run.h"
+#include "resolve/view.h"
 
 namespace tyndall::resolve {
 
@@ -87,6 +88,9 @@ void check_scene(Run& run) {
   check_camera(run);
   check_light(run);
   check_light_at_camera(run);
+  if (run.diagnostics.has_errors()) return;
+  warn_of_volumes_out_of_view(run);
+  warn_of_lights_shut_in(run);
 }
 
 }  // namespace tyndall::resolve

@@ -7,6 +7,7 @@
 
 #include "base/diagnostics.h"
 #include "base/source.h"
+#include "resolve/limits.h"
 #include "scene/scene.h"
 #include "shader/compile_body.h"
 #include "syntax/tree.h"
@@ -18,7 +19,7 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> overrides;  // --set NAME=EXPR
   std::vector<std::string> include_directories;
   shader::Options shader;
-  long max_repetitions = 10'000'000;  // rounds of loops, calls and places, all together: beyond, a mistake
+  long max_repetitions = resolve::max_repetitions;  // tests and fuzzers take fewer
 };
 
 // The scene that the tree describes, as far as it could be read; look at the diagnostics before using it.

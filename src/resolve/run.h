@@ -11,6 +11,7 @@
 
 #include "eval/evaluator.h"
 #include "resolve/bodies.h"
+#include "resolve/limits.h"
 #include "resolve/reader.h"
 #include "resolve/resolve.h"
 #include "resolve/statements.h"
@@ -19,12 +20,6 @@
 #include "syntax/parser.h"
 
 namespace tyndall::resolve {
-
-// Limits: beyond them a scene is taken for a mistake.
-inline constexpr int max_template_depth = 128;  // templates and objects within each other
-inline constexpr int max_include_depth = 64;
-inline constexpr int max_block_depth = 500;  // blocks within blocks within calls: bounds the stack
-inline constexpr std::uintmax_t max_file_bytes = 256u << 20;
 
 // Where an item stands: its text, the names in force, the space, what surrounding groups settled.
 struct Site {

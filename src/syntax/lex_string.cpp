@@ -12,6 +12,11 @@ void Lexer::string(std::uint32_t begin, TokenKind kind_if_whole, TokenKind kind_
   std::string piece;
   TokenKind kind = kind_if_whole;
   for (;;) {
+    if ((at_end() || peek() == '\n') && kind_if_whole == TokenKind::string &&
+        !interpolations_.empty()) {  // told of the '{' that is open
+      emit(TokenKind::error, begin);
+      return;
+    }
     if (at_end() || peek() == '\n') {
       diagnostics_.error(span_from(begin), "this string is never closed",
                          "close it with '\"' on the same line");

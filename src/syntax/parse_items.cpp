@@ -68,7 +68,7 @@ void Parser::after_item(const std::optional<ItemId>& id) {
 // The name that a definition gives; a reserved word is reported and taken.
 std::optional<Name> Parser::new_name(std::string_view what) {
   if (at(TokenKind::name)) return take_name();
-  if (is_reserved(kind())) {
+  if (is_reserved(kind()) && !first_on_line(at_)) {
     note_mistake(peek().span, fmt::format("'{}' is a reserved word and cannot be a name", spelling(kind())));
     return take_name();
   }
@@ -295,7 +295,11 @@ std::optional<Parser::ItemNode> Parser::assign_item() {
     note_mistake(equals, "a parameter is given with ':'", fmt::format("write {}: value", text(name)));
     return ParameterItem{name, expression()};
   }
-  if (reserved) note_mistake(name.span, fmt::format("'{}' is a reserved word and cannot be set", text(name)));
+  if (reserved) {
+    note_mistake(name.span, fmt::format("'{}' is a reserved word and cannot be set", text(name)));
+    expression();
+    return std::nullopt;
+  }
   return AssignItem{name, expression()};
 }
 
@@ -313,8 +317,13 @@ std::optional<Parser::ItemNode> Parser::thing_item() {
   }
   if (at(TokenKind::string) || at(TokenKind::string_head)) file = string_value();
   if (at(TokenKind::dot) || at(TokenKind::left_bracket)) {
-    fail(peek().span, fmt::format("parts of '{}' cannot be set or used as a statement", owner),
-         "set the whole: name = value");
+    note_mistake(peek().span, fmt::format("parts of '{}' cannot be set or used as a statement", owner),
+                 "set the whole: name = value");
+    while (at(TokenKind::dot) || at(TokenKind::left_bracket) || at(TokenKind::name)) {
+      if (at(TokenKind::name) && tokens_.tokens[at_ - 1].kind != TokenKind::dot) break;
+      skip_group();
+    }
+    if (take_if(TokenKind::equals)) expression();
     return std::nullopt;
   }
   if (!at(TokenKind::left_brace) && !file.valid() && !kind_follows &&

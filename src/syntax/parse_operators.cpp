@@ -120,6 +120,7 @@ ExprId Parser::prefix(int loosest) {
   take();
   const ExprId operand = operators(not_level);
   leave();
+  if (loosest > not_level) return error_expr();
   return add(first, UnaryExpr{UnaryOp::logical_not, operand}, 1 + height(operand));
 }
 
@@ -129,11 +130,12 @@ ExprId Parser::comparison_or_range(ExprId left, std::uint32_t first_token, int l
   const Token& token = take();
   const ExprId right = operators(level + 1);
   if (level == comparison_level) {
-    const ExprId result = add(first_token, BinaryExpr{find_operator(token.kind)->op, left, right},
-                              1 + std::max(height(left), height(right)));
-    if (const OperatorRow* next = find_operator(kind()); next != nullptr && next->level == comparison_level)
+    if (const OperatorRow* next = find_operator(kind()); next != nullptr && next->level == comparison_level) {
       note_mistake(peek().span, "comparisons cannot be chained", "write a < b and b < c");
-    return result;
+      return error_expr();
+    }
+    return add(first_token, BinaryExpr{find_operator(token.kind)->op, left, right},
+               1 + std::max(height(left), height(right)));
   }
   ExprId step;
   std::uint32_t tallest = std::max(height(left), height(right));
@@ -143,8 +145,10 @@ ExprId Parser::comparison_or_range(ExprId left, std::uint32_t first_token, int l
     take();
     step = operators(level + 1);
     tallest = std::max(tallest, height(step));
-    if (at(TokenKind::dot_dot) || at(TokenKind::dot_dot_less))
+    if (at(TokenKind::dot_dot) || at(TokenKind::dot_dot_less)) {
       note_mistake(peek().span, "a range has at most three parts", "write first..last..step");
+      return error_expr();
+    }
   }
   return add(first_token, RangeExpr{left, right, step, token.kind == TokenKind::dot_dot_less}, 1 + tallest);
 }

@@ -50,10 +50,18 @@ ExprId Parser::not_a_value() {
   std::string help;
   if (at(TokenKind::plus)) help = "leave the '+' out";
   if (at(TokenKind::equals)) help = "comparison is '=='";
-  if (at(TokenKind::kw_medium) || at(TokenKind::kw_material))
+  if (at(TokenKind::kw_medium) || at(TokenKind::kw_material)) {
     help = fmt::format("an unnamed body is written {}: {{ … }}", spelling(kind()));
+    if (kind(1) == TokenKind::left_brace && !brace_opens_body_) {  // the word is too much
+      note_mistake(peek().span, fmt::format("expected a value, found the reserved word {}", found()),
+                   std::move(help));
+      take();
+      return unnamed_body();
+    }
+  }
   const std::string_view noun = is_reserved(kind()) ? "the reserved word " : "";
   fail(peek().span, fmt::format("expected a value, found {}{}", noun, found()), std::move(help));
+  if (at(TokenKind::kw_medium) || at(TokenKind::kw_material)) take();  // it begins no definition here
   return error_expr();
 }
 
@@ -168,6 +176,12 @@ ExprId Parser::list() {
   std::vector<ExprId> elements;
   std::uint32_t tallest = 0;
   const bool good = comma_list(TokenKind::right_bracket, [&] {
+    if (elements.size() == max_list_length) {
+      note_mistake(peek().span, fmt::format("a list of more than {} entries", max_list_length),
+                   "a large mesh comes from a glTF file, many alike things from a loop");
+      while (!ends_everything() && !at(TokenKind::right_bracket)) skip_group();
+      return;
+    }
     elements.push_back(expression());
     tallest = std::max(tallest, height(elements.back()));
   });
@@ -179,6 +193,7 @@ ExprId Parser::list() {
 ExprId Parser::call(ExprId callee, std::uint32_t first_token) {
   std::vector<Argument> arguments;
   std::uint32_t tallest = height(callee);
+  bool in_order = true;
   const bool good = comma_list(TokenKind::right_paren, [&] {
     Name name;
     const std::uint32_t begin = at_;
@@ -191,12 +206,14 @@ ExprId Parser::call(ExprId callee, std::uint32_t first_token) {
     }
     const ExprId given = expression();
     tallest = std::max(tallest, height(given));
-    if (!name.symbol.valid() && !arguments.empty() && arguments.back().name.symbol.valid())
+    if (!name.symbol.valid() && !arguments.empty() && arguments.back().name.symbol.valid()) {
       note_mistake(span_from(begin), "a positional argument after a named one",
                    "positional arguments come first");
+      in_order = false;
+    }
     arguments.push_back({name, given});
   });
-  if (!good) return add(first_token, ErrorExpr{});
+  if (!good || !in_order) return add(first_token, ErrorExpr{});
   return add(first_token, CallExpr{callee, append(tree_.arguments, arguments)}, 1 + tallest);
 }
 

@@ -16,6 +16,9 @@ namespace tyndall::syntax {
 // Levels to which expressions, blocks and operator chains may nest: what walks the tree by recursion is safe.
 inline constexpr std::uint32_t max_nesting = 256;
 
+// Entries of a list.
+inline constexpr std::uint32_t max_list_length = 1'000'000;
+
 // Where a block stands: settles what `name: value` means in it.
 enum class BlockPlace : std::uint8_t {
   file,   // the file, a template, an object: statements

@@ -14,9 +14,6 @@
 namespace tyndall::tools {
 namespace {
 
-// Spans count bytes in 32 bits, and no scene is written that is near this long.
-constexpr std::size_t max_scene_bytes = std::size_t{1} << 30;
-
 // The file's bytes; an error message fit for the user when there are none to be had.
 std::string read_text(const std::string& path, std::string& text) {
   std::error_code ignored;
@@ -31,7 +28,8 @@ std::string read_text(const std::string& path, std::string& text) {
     text.resize(end + chunk);
     got = std::fread(text.data() + end, 1, chunk, file.get());
     text.resize(end + got);
-    if (text.size() > max_scene_bytes) return fmt::format("cannot read '{}': it is longer than 1 GiB", path);
+    if (text.size() > resolve::max_file_bytes)
+      return fmt::format("cannot read '{}': it is larger than {} MB", path, resolve::max_file_bytes >> 20);
   } while (got > 0);
   if (std::ferror(file.get()))
     return fmt::format("cannot read '{}': {}", path, std::generic_category().message(errno));

@@ -1,6 +1,8 @@
 // The commands beside `render`: check, inspect, compare, and the help.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
@@ -20,6 +22,31 @@ TEST_F(Commands, CheckLooksAtEveryScene) {
   EXPECT_EQ(both.status, 1);
   EXPECT_EQ(both.out, bad + ": has errors\n" + good + ": good\n");
   EXPECT_NE(both.err.find(bad + ":1:9: error: "), std::string::npos) << both.err;
+}
+
+// A page of text is checked while a key is let go: under 50 ms of processor time, loading the program
+// included.
+TEST_F(Commands, CheckIsQuick) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "sanitizers take their time";
+#endif
+  const std::string scene = TYNDALL_SOURCE_DIR "/tests/language/correct.tyn";
+  ASSERT_GT(read_file(scene).size(), 3000u);
+  const auto used = [] {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  };
+  double least = 1;
+  for (int run = 0; run < 5; ++run) {
+    const double before = used();
+    ASSERT_EQ(tyndall({"check", scene}).status, 0);
+    least = std::min(least, used() - before);
+  }
+  EXPECT_LT(least, 0.05);
 }
 
 TEST_F(Commands, InspectPrintsEveryStage) {

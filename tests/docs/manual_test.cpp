@@ -9,6 +9,7 @@
 
 #include "docs/generated.h"
 #include "eval/names.h"
+#include "resolve/limits.h"
 #include "resolve/parameters.h"
 #include "resolve/resolve.h"
 #include "resolve/statements.h"
@@ -55,6 +56,16 @@ void add_rows(std::string& out) {
   });
 }
 
+// The parameters of a shape as a scene gives them.
+template <class T>
+struct AsWritten {
+  using Type = T;
+};
+template <>
+struct AsWritten<scene::Mesh> {
+  using Type = resolve::MeshParameters;
+};
+
 class Tables {
  public:
   template <class T, class... Others>
@@ -66,7 +77,7 @@ class Tables {
   }
   template <class... Ts, class... Others>
   void add_each(const std::variant<Ts...>*, const std::tuple<Others...>*) {
-    (add<Ts, Others...>(), ...);
+    (add<typename AsWritten<Ts>::Type, Others...>(), ...);
   }
 
   std::string text;
@@ -115,7 +126,15 @@ std::string materials() {
   return text + "\n";
 }
 
+std::string limits() {
+  std::string text = "\n| limit | is | of |\n| --- | --- | --- |\n";
+  for (const resolve::Limit& limit : resolve::limits())
+    text += fmt::format("| {} | {} | {} |\n", limit.name, limit.value, cell(limit.what));
+  return text + "\n";
+}
+
 TEST(Manual, TablesAreCurrent) {
+  expect_part(manual, "limits", limits());
   const Tables tables = statements();
   expect_part(manual, "statements", tables.text + "\n");
   expect_part(manual, "builtins", builtins());
@@ -130,6 +149,26 @@ TEST(Manual, EveryStatementHasATable) {
     if (row.run != nullptr) {
       EXPECT_TRUE(tables.keywords.contains(std::string(row.name))) << row.name;
     }
+}
+
+// The message that the tutorial shows is what is said of its first scene with that mistake.
+TEST(Manual, ShowsARealMessage) {
+  const std::string text = read_file(manual);
+  const std::size_t begin = text.find("```tyn\n") + 7;
+  std::string scene = text.substr(begin, text.find("```", begin) - begin);
+  const std::size_t unit = scene.find("40deg") + 2;
+  ASSERT_LT(unit, scene.size());
+  scene.erase(unit, 3);
+  Sources sources;
+  Diagnostics diagnostics;
+  syntax::Symbols symbols;
+  const SourceId source = sources.add("ball.tyn", scene);
+  const syntax::TokenList tokens = syntax::lex(sources, source, diagnostics);
+  const syntax::SyntaxTree tree = syntax::parse(sources, source, tokens, symbols, diagnostics);
+  resolve::resolve(tree, sources, symbols, {}, diagnostics);
+  ASSERT_EQ(diagnostics.error_count(), 1);
+  EXPECT_NE(text.find(render_text(diagnostics, sources, false)), std::string::npos)
+      << render_text(diagnostics, sources, false);
 }
 
 // Examples: "tyn" blocks are whole scenes, "tyn part" blocks stand in one.

@@ -6,14 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include "resolve/resolve.h"
-#include "syntax/parser.h"
+#include "cases.h"
 
 namespace tyndall {
 namespace {
@@ -27,6 +20,8 @@ struct Expectation {
   std::string fragments;
   bool met = false;
 };
+
+std::uint32_t lines_of(const Source& s) { return s.locate(static_cast<std::uint32_t>(s.text().size())).line; }
 
 // The expectations in a line's comments.
 void read_expectations(const Source& source, std::uint32_t line, std::vector<Expectation>& expectations) {
@@ -59,31 +54,19 @@ bool matches(std::string_view text, std::string_view fragments) {
   }
 }
 
-std::string text_of(const Diagnostic& d) {
-  std::string text = d.message + " | " + d.help;
-  for (const Diagnostic::Note& note : d.notes) text += " | " + note.message;
-  return text;
-}
-
 class Language : public testing::TestWithParam<std::string> {};
 
 TEST_P(Language, ReportsWhatTheCommentsSay) {
-  std::ifstream file(GetParam(), std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  Sources sources;
-  Diagnostics diagnostics;
-  syntax::Symbols symbols;
-  const SourceId source = sources.add(GetParam(), text.str());
-  const syntax::TokenList tokens = syntax::lex(sources, source, diagnostics);
-  const syntax::SyntaxTree tree = syntax::parse(sources, source, tokens, symbols, diagnostics);
-  resolve::resolve(tree, sources, symbols, {}, diagnostics);
+  Case c;
+  run_case(GetParam(), c);
+  const Sources& sources = c.sources;
+  const Diagnostics& diagnostics = c.diagnostics;
 
   std::vector<Expectation> expectations;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const Source& s = sources[SourceId(i)];
-    const std::uint32_t lines = s.locate(static_cast<std::uint32_t>(s.text().size())).line;
-    for (std::uint32_t line = 1; line <= lines; ++line) read_expectations(s, line, expectations);
+    for (std::uint32_t line = 1; line <= lines_of(s); ++line)
+      if (!s.line(line).starts_with(set_mark)) read_expectations(s, line, expectations);
   }
   for (const Diagnostic& d : diagnostics.all()) {
     ASSERT_TRUE(d.span.valid()) << d.message;
@@ -104,15 +87,23 @@ TEST_P(Language, ReportsWhatTheCommentsSay) {
                                      [](const Expectation& e) { return e.severity == Severity::error; })));
 }
 
-std::vector<std::string> scenes() {
-  std::vector<std::string> paths;
-  for (const auto& entry : fs::directory_iterator(TYNDALL_SOURCE_DIR "/tests/language"))
-    if (entry.path().extension() == ".tyn") paths.push_back(entry.path().string());
-  std::sort(paths.begin(), paths.end());
-  return paths;
+// The scenes hold enough: many cases, each an expectation.
+TEST(Cases, AreMany) {
+  std::size_t errors = 0, warnings = 0;
+  for (const std::string& path : case_files()) {
+    Sources sources;
+    std::ifstream file(path, std::ios::binary);
+    const SourceId source = sources.add(path, std::string{std::istreambuf_iterator<char>(file), {}});
+    std::vector<Expectation> expectations;
+    for (std::uint32_t line = 1; line <= lines_of(sources[source]); ++line)
+      read_expectations(sources[source], line, expectations);
+    for (const Expectation& e : expectations) ++(e.severity == Severity::error ? errors : warnings);
+  }
+  EXPECT_GE(errors, 300u);
+  EXPECT_GE(warnings, 10u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Language, testing::ValuesIn(scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, Language, testing::ValuesIn(case_files()),
                          [](const auto& scene) { return fs::path(scene.param).stem().string(); });
 
 }  // namespace

@@ -1,0 +1,34 @@
+// The table of the language's limits.
+#include "resolve/limits.h"
+
+#include "eval/evaluator.h"
+#include "syntax/lexer.h"
+#include "syntax/recursive_parser.h"
+
+namespace tyndall::resolve {
+
+std::span<const Limit> limits() {
+  static constexpr Limit table[] = {
+      {"file size", max_file_bytes, "bytes of a scene or an included file (256 MB)"},
+      {"name length", syntax::max_word_bytes, "characters of a name"},
+      {"nesting", syntax::max_nesting, "brackets, blocks and operators within each other in the text"},
+      {"list length", syntax::max_list_length, "entries of a list"},
+      {"include depth", max_include_depth, "files that include each other, besides the scene's own"},
+      {"template depth", max_template_depth, "templates and objects placed within each other"},
+      {"block depth", max_block_depth, "blocks within blocks, through all calls of templates"},
+      {"repetitions", max_repetitions,
+       "rounds of loops, calls of templates and placements in a scene, in all"},
+      {"call depth", eval::max_call_depth, "functions that call each other"},
+      {"evaluation depth", eval::max_expression_depth, "operations within each other, through all calls"},
+      {"function rounds", eval::max_loop_iterations, "rounds of one `for` in a function"},
+      {"function rounds in all", eval::max_total_iterations,
+       "rounds of all `for` below one value of a scene"},
+      {"body rounds", eval::max_unrolled_iterations, "rounds of one `for` in a medium or material"},
+      {"body rounds in all", eval::max_total_unrolled, "rounds of all `for` in a medium or material"},
+      {"octaves", eval::max_octaves, "octaves of a noise"},
+      {"errors told", Diagnostics::max_errors, "errors that are shown; further ones are counted"},
+  };
+  return table;
+}
+
+}  // namespace tyndall::resolve
