@@ -31,7 +31,7 @@ TEST_F(Commands, CheckIsQuick) {
   GTEST_SKIP() << "sanitizers take their time";
 #endif
   const std::string scene = TYNDALL_SOURCE_DIR "/tests/language/correct.tyn";
-  ASSERT_GT(read_file(scene).size(), 3000u);
+  ASSERT_GT(read_file(scene).size(), 2000u);
   const auto used = [] {
     rusage usage{};
     getrusage(RUSAGE_CHILDREN, &usage);
