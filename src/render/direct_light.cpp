@@ -4,7 +4,7 @@
 
 #include "optics/light_sampling.h"
 #include "optics/phase.h"
-#include "render/equiangular.h"
+#include "render/distance.h"
 #include "render/worker.h"
 
 namespace tyndall::render {
@@ -57,32 +57,6 @@ void LightStrategies::set(const compile::CompiledScene& world, const March& marc
                 march.scattering_stretches.back().hi);
 }
 
-void LightStrategies::reached_stretches(std::uint32_t light, std::vector<Intervald>& out) const {
-  const optics::ReachedParts reached = optics::reached_parts(world_->lights[light], march_->ray.origin,
-                                                             march_->ray.direction, march_->ray.t_max);
-  out.clear();
-  for (const Intervald& stretch : march_->scattering_stretches)
-    for (int k = 0; k < reached.count; ++k) {
-      const Intervald part = stretch.clipped_to(reached.parts[k]);
-      if (!part.empty()) out.push_back(part);
-    }
-}
-
-// Probability of equi-angular sampling, when each of the two can or cannot be had.
-double LightStrategies::equiangular_share(bool equiangular, bool density) const {
-  if (!equiangular) return 0;
-  if (!density) return 1;
-  switch (distance_) {
-    case Distance::mis:
-      return 0.5;
-    case Distance::density:
-      return 0;
-    case Distance::equiangular:
-      return 1;
-  }
-  return 0.5;
-}
-
 void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed, const Rgb& weight,
                              bool continues, double volume_probability, int samples, Worker& worker) {
   float u_light = point[0];
@@ -90,18 +64,13 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
   const optics::Light& light = world_->lights[index];
   const auto pivot = optics::sample_pivot(light, point[3], point[4]);
 
-  std::vector<Intervald>& stretches = worker.stretches;
-  stretches.clear();
-  if (pivot) reached_stretches(index, stretches);
-  const Equiangular equiangular(march_->ray.origin, march_->ray.direction, pivot.value_or(Vec3d{}),
-                                stretches);
-  const double share = equiangular_share(equiangular.available(), density_->available());
-  if (!equiangular.available() && !density_->available()) return;
+  const DistanceMixture distances(*world_, *march_, *density_, throughput_, distance_, index, pivot, worker);
+  if (!distances.available()) return;
 
   // The strategy is chosen with the light's rescaled number, which leaves dimensions 1 and 2 for t.
-  const double t = u_light < share ? equiangular.sample(point[2]) : density_->sample(point[1], point[2]);
+  const double t = distances.sample(u_light, point[1], point[2]);
   const std::uint32_t segment = march_->segment_at(t);
-  const double pdf_t = share * equiangular.pdf(t) + (1 - share) * density_->pdf(segment, t);
+  const double pdf_t = distances.pdf(segment, t);
   if (!(pdf_t > 0)) return;
 
   const Vec3d x = march_->ray.origin + march_->ray.direction * t;
@@ -128,16 +97,10 @@ double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t
   const double solid_angle = optics::pdf_light(world_->lights[light], x, direction, y, normal);
   if (solid_angle == 0) return 0;
   // The pivot that would lead to y: y itself on a flat light, the centre of a sphere.
-  std::vector<Intervald>& stretches = worker.stretches;
-  stretches.clear();
-  const auto any_pivot = optics::sample_pivot(world_->lights[light], 0.5f, 0.5f);
-  const bool on_surface = optics::pivot_on_surface(world_->lights[light]);
-  if (any_pivot) reached_stretches(light, stretches);
-  const Equiangular equiangular(march_->ray.origin, march_->ray.direction,
-                                on_surface ? y : any_pivot.value_or(y), stretches);
-  const double share = equiangular_share(equiangular.available(), density_->available());
-  return lights_.probability(light) * solid_angle *
-         (share * equiangular.pdf(t) + (1 - share) * density_->pdf(segment, t));
+  auto pivot = optics::sample_pivot(world_->lights[light], 0.5f, 0.5f);
+  if (pivot && optics::pivot_on_surface(world_->lights[light])) pivot = y;
+  const DistanceMixture distances(*world_, *march_, *density_, throughput_, distance_, light, pivot, worker);
+  return lights_.probability(light) * solid_angle * distances.pdf(segment, t);
 }
 
 void sample_surface_light(const compile::CompiledScene& world, const SurfacePoint& surface,

@@ -50,10 +50,6 @@ class LightStrategies {
   const DensityDistribution& density() const { return *density_; }
 
  private:
-  // Stretches of the march that scatter and that the light reaches.
-  void reached_stretches(std::uint32_t light, std::vector<Intervald>& out) const;
-  double equiangular_share(bool equiangular, bool density) const;
-
   const compile::CompiledScene* world_ = nullptr;
   const March* march_ = nullptr;
   std::optional<DensityDistribution> density_;

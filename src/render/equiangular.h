@@ -11,6 +11,28 @@
 
 namespace tyndall::render {
 
+// A ray and a pivot.
+class EquiangularLine {
+ public:
+  EquiangularLine() = default;
+  // The direction has unit length.
+  EquiangularLine(const Vec3d& origin, const Vec3d& direction, const Vec3d& pivot);
+
+  // (angle over D) of a stretch: its limit (b - a)/(a b) where D vanishes, infinite with the pivot on it.
+  double weight(const Intervald& stretch) const;
+  // The distance at this part, in [0, 1], of the stretch's angle.
+  double sample(const Intervald& stretch, double part) const;
+  // 1/(D² + (t - delta)²): density times the sum of the weights.
+  double falloff(double t) const { return 1 / squared_distance(t); }
+  // From the ray's point at t to the pivot.
+  double squared_distance(double t) const { return distance_ * distance_ + (t - delta_) * (t - delta_); }
+  double delta() const { return delta_; }
+  double distance() const { return distance_; }
+
+ private:
+  double delta_ = 0, distance_ = 0;  // t of the point nearest the pivot; the pivot's distance D from the line
+};
+
 // The distribution over a list of disjoint stretches of one ray.
 class Equiangular {
  public:
@@ -22,16 +44,13 @@ class Equiangular {
   bool available() const { return total_ > 0; }
   // The distance for u in [0, 1).
   double sample(double u) const;
-  // Density per metre at a t of a stretch; 0 when not available.
+  // Density per metre; 0 outside the stretches and when not available.
   double pdf(double t) const;
 
  private:
-  // (angle over D) of one stretch: its limit (b - a)/(a b) where D vanishes.
-  double weight(const Intervald& stretch) const;
-
   const std::vector<Intervald>& stretches_;
-  double delta_, distance_;  // t of the point nearest the pivot, and the pivot's distance D from the line
-  double total_ = 0;         // sum of the weights
+  EquiangularLine line_;
+  double total_ = 0;  // sum of the weights
 };
 
 }  // namespace tyndall::render

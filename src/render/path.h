@@ -14,7 +14,7 @@ namespace tyndall::render {
 
 // What every sample of a render shares.
 struct PathSettings {
-  Distance distance = Distance::mis;
+  Distance distance = Distance::product;
   Transmittance transmittance = Transmittance::march;
   int light_samples = 1;
   int bounces = 0;

@@ -16,14 +16,14 @@
 namespace tyndall::render {
 
 // How a distance along the ray is drawn for direct light.
-enum class Distance : std::uint8_t { mis, density, equiangular };
+enum class Distance : std::uint8_t { mis, density, equiangular, product };
 
 // How transmittance towards a light is found where it has no closed form (transport §4).
 enum class Transmittance : std::uint8_t { march, jackknife, series };
 
 struct RenderOptions {
   int threads = 0;  // 0: all
-  Distance distance = Distance::mis;
+  Distance distance = Distance::product;
   Transmittance transmittance = Transmittance::march;
   // Half-open pixel rectangle and sample range; defaults: everything.
   struct Crop {

@@ -11,6 +11,7 @@
 #include "render/camera.h"
 #include "render/direct_light.h"
 #include "render/march.h"
+#include "render/product.h"
 #include "render/render.h"
 #include "render/transmittance.h"
 #include "vm/machine.h"
@@ -67,6 +68,7 @@ struct Worker {
   PhaseMixture phase;
   ShadowBatch shadows;
   std::vector<Intervald> stretches;
+  Product product;
   std::vector<double> edges, reach;  // of the march at work
 };
 

@@ -16,6 +16,7 @@ inline constexpr Choice<render::Distance> distances[] = {
     {"mis", render::Distance::mis},
     {"density", render::Distance::density},
     {"equiangular", render::Distance::equiangular},
+    {"product", render::Distance::product},
 };
 
 inline constexpr Choice<render::Transmittance> transmittances[] = {

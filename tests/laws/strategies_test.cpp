@@ -73,8 +73,8 @@ TEST(Strategies, Agree) {
     for (const int bounces : {0, 2}) {
       const scene::Scene scene = foggy(light, bounces).scene;
       const Estimate mixed = measure(scene).whole();
-      for (const render::Distance distance :
-           {render::Distance::mis, render::Distance::density, render::Distance::equiangular}) {
+      for (const render::Distance distance : {render::Distance::mis, render::Distance::density,
+                                              render::Distance::equiangular, render::Distance::product}) {
         if (distance == render::Distance::density && std::string_view(name) == "point") continue;
         for (const int light_samples : {1, 4}) {
           scene::Scene other = scene;

@@ -1,0 +1,40 @@
+// The distance along a marched ray at which one light is taken: the strategies of `--distance` in one
+// mixture, divided by the sum of their densities.
+#pragma once
+
+#include <optional>
+
+#include "compile/compiled_scene.h"
+#include "render/equiangular.h"
+#include "render/march.h"
+#include "render/product.h"
+#include "render/render.h"
+
+namespace tyndall::render {
+
+struct Worker;
+
+class DistanceMixture {
+ public:
+  // For the light of this index, when it is to be aimed at through `pivot` (none for lights without a place).
+  // Uses the worker's scratch: holds until the next one is made.
+  DistanceMixture(const compile::CompiledScene& world, const March& march, const DensityDistribution& density,
+                  const Rgb& throughput, Distance distance, std::uint32_t light,
+                  const std::optional<Vec3d>& pivot, Worker& worker);
+  DistanceMixture(const DistanceMixture&) = delete;
+
+  bool available() const { return toward_light_ > 0 || density_.available(); }
+  // The distance for three numbers in [0, 1): which strategy, and two for it.
+  double sample(float u_strategy, float u_channel, float u) const;
+  // Per metre, at t of this segment.
+  double pdf(std::uint32_t segment, double t) const;
+
+ private:
+  const DensityDistribution& density_;
+  const std::vector<Intervald>& stretches_;  // that scatter and that the light reaches
+  std::optional<Equiangular> equiangular_;
+  const Product* product_ = nullptr;
+  double toward_light_ = 0;  // probability of the strategy that knows the light
+};
+
+}  // namespace tyndall::render
