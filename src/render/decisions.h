@@ -15,6 +15,8 @@ enum class Decision : std::uint8_t {
   light_surface,  // the same at surfaces
   shadow,         // offset of shadow marches
   roulette,
+  flight,  // null collisions
+  aimed,   // light, -, t, 2 of the light's surface
 };
 
 // The sequence of a decision at one path segment. Branches: a camera ray continues both in the volume and

@@ -15,12 +15,12 @@ namespace {
 // so nothing hangs on the margin but other surfaces that touch the light.
 constexpr double shadow_end = 1 - 0x1p-40;
 
+}  // namespace
+
 ShadowRay shadow_ray(const Vec3d& from, const optics::LightSample& light, std::uint32_t index,
                      const Rgb& contribution, std::uint32_t seed) {
   return {{from, light.direction, light.distance * shadow_end}, index, contribution, seed};
 }
-
-}  // namespace
 
 void LightChoice::set(const compile::CompiledScene& world, const Vec3d& origin, const Vec3d& direction,
                       double t0, double t1) {
@@ -46,12 +46,15 @@ std::uint32_t LightChoice::sample(float& u) const {
 }
 
 void LightStrategies::set(const compile::CompiledScene& world, const March& march, const Rgb& throughput,
-                          Distance distance) {
+                          Method method, Distance distance) {
   world_ = &world;
   march_ = &march;
   throughput_ = throughput;
+  method_ = method;
   distance_ = distance;
-  density_.emplace(march, throughput);
+  flight_ = nullptr;
+  density_.reset();
+  if (!flies(method)) density_.emplace(march, throughput);
   if (march.scatters())
     lights_.set(world, march.ray.origin, march.ray.direction, march.scattering_stretches.front().lo,
                 march.scattering_stretches.back().hi);
@@ -59,6 +62,9 @@ void LightStrategies::set(const compile::CompiledScene& world, const March& marc
 
 void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed, const Rgb& weight,
                              bool continues, double volume_probability, int samples, Worker& worker) {
+  if (flies(method_)) return sample_collision(point, shadow_seed, weight, continues, worker);
+  if (method_ == Method::brute_force)
+    return sample_steps(point, shadow_seed, weight, continues, volume_probability, worker);
   float u_light = point[0];
   const std::uint32_t index = lights_.sample(u_light);
   const optics::Light& light = world_->lights[index];
@@ -99,6 +105,11 @@ double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t
   // The pivot that would lead to y: y itself on a flat light, the centre of a sphere.
   auto pivot = optics::sample_pivot(world_->lights[light], 0.5f, 0.5f);
   if (pivot && optics::pivot_on_surface(world_->lights[light])) pivot = y;
+  if (method_ == Method::brute_force) return lights_.probability(light) * solid_angle / step_at(segment);
+  if (flies(method_)) {
+    const FlightDensities densities = flight_densities({light, pivot, 0}, t, flight_->density, worker);
+    return lights_.probability(light) * solid_angle * (densities.aimed + densities.collision);
+  }
   const DistanceMixture distances(*world_, *march_, *density_, throughput_, distance_, light, pivot, worker);
   return lights_.probability(light) * solid_angle * distances.pdf(segment, t);
 }

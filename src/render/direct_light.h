@@ -5,11 +5,16 @@
 // the path's own continuation, is weighted against `light_samples` of them by the balance heuristic.
 #pragma once
 
+#include <optional>
+
 #include "base/sampler.h"
 #include "compile/compiled_scene.h"
+#include "optics/light_sampling.h"
+#include "render/flight.h"
 #include "render/march.h"
 #include "render/render.h"
 #include "render/surface.h"
+#include "render/transmittance.h"
 
 namespace tyndall::render {
 
@@ -30,15 +35,16 @@ class LightChoice {
   double total_ = 0;
 };
 
-// A marched ray with what is needed to say with which density (t, y) would be drawn from it for direct light.
+// A ray with what is needed to say with which density (t, y) would be drawn from it for direct light.
 class LightStrategies {
  public:
   // Keeps references: the march must stay as it is.
-  void set(const compile::CompiledScene& world, const March& march, const Rgb& throughput, Distance distance);
+  void set(const compile::CompiledScene& world, const March& march, const Rgb& throughput, Method method,
+           Distance distance);
   bool empty() const { return !march_->scatters() || lights_.empty(); }
 
-  // Adds the shadow ray of one sample (light, strategy, t, light u, light v in `point`) to the worker's
-  // batch, its contribution multiplied by `weight`. `continues` tells whether strategy C competes, with
+  // Adds the shadow rays of one sample (light, strategy, t, light u, light v in `point`) to the worker's
+  // batch, their contribution multiplied by `weight`. `continues` tells whether strategy C competes, with
   // probability `volume_probability` of continuing in the volume; `samples` of these samples are taken.
   void sample(const SobolPoint& point, std::uint32_t shadow_seed, const Rgb& weight, bool continues,
               double volume_probability, int samples, Worker& worker);
@@ -49,14 +55,49 @@ class LightStrategies {
              const Vec3d& normal, Worker& worker) const;
   const DensityDistribution& density() const { return *density_; }
 
+  // Of methods that fly (flight_light.cpp): `aim` before the flight chooses a light and the point of the ray,
+  // `sample_aimed` after it adds the shadow ray from there; `sample` takes light where the flight collided.
+  void aim(const SobolPoint& point, Flight& flight, Worker& worker);
+  void sample_aimed(const SobolPoint& point, std::uint32_t shadow_seed, const Rgb& weight, bool continues,
+                    Worker& worker);
+
  private:
+  // A light, and how it is seen from the ray.
+  struct Aim {
+    std::uint32_t light = 0;
+    std::optional<Vec3d> pivot;
+    double choice = 0;  // probability of the light
+  };
+  Aim choose(const SobolPoint& point, float& u_rest) const;
+  bool aims() const { return method_ == Method::tracking && distance_ != Distance::density; }
+  // Density of aiming at t for the light through this pivot, and that of taking it at a collision.
+  struct FlightDensities {
+    double aimed = 0, collision = 0;
+  };
+  FlightDensities flight_densities(const Aim& aim, double t, double collision, Worker& worker) const;
+  void sample_collision(const SobolPoint& point, std::uint32_t shadow_seed, const Rgb& weight, bool continues,
+                        Worker& worker);
+  // One more ray from the point at t, for one of the strategies of a flight.
+  void add_flight_ray(const Aim& aim, const SobolPoint& point, double t, const Rgb& weight,
+                      double own_density, const FlightDensities& densities, double collision, bool continues,
+                      std::uint32_t shadow_seed, Worker& worker);
+  void sample_steps(const SobolPoint& point, std::uint32_t shadow_seed, const Rgb& weight, bool continues,
+                    double volume_probability, Worker& worker);
+  double step_at(std::uint32_t segment) const;
+
   const compile::CompiledScene* world_ = nullptr;
   const March* march_ = nullptr;
   std::optional<DensityDistribution> density_;
   LightChoice lights_;
   Rgb throughput_;
+  Method method_ = Method::decoupled;
   Distance distance_ = Distance::mis;
+  const Flight* flight_ = nullptr;
 };
+
+// The shadow ray from a point to what was drawn of a light.
+ShadowRay shadow_ray(const Vec3d& from, const optics::LightSample& light, std::uint32_t index,
+                     const Rgb& contribution, std::uint32_t seed);
 
 // Adds the shadow ray of one light sample on a surface. Strategy C is here the surface's own sampling.
 void sample_surface_light(const compile::CompiledScene& world, const SurfacePoint& surface,

@@ -12,18 +12,6 @@ namespace {
 // What product sampling leaves to the density, so that no rough weight of a cell can make a sample too heavy.
 constexpr double product_share = 0.95;
 
-const std::vector<Intervald>& reached_stretches(const optics::Light& light, const March& march,
-                                                std::vector<Intervald>& out) {
-  const optics::ReachedParts reached =
-      optics::reached_parts(light, march.ray.origin, march.ray.direction, march.ray.t_max);
-  for (const Intervald& stretch : march.scattering_stretches)
-    for (int k = 0; k < reached.count; ++k) {
-      const Intervald part = stretch.clipped_to(reached.parts[k]);
-      if (!part.empty()) out.push_back(part);
-    }
-  return out;
-}
-
 // The segment from which most is scattered stands for the phase functions of all.
 std::uint32_t brightest_segment(const March& m) {
   std::uint32_t brightest = 0;
@@ -36,6 +24,16 @@ std::uint32_t brightest_segment(const March& m) {
 }
 
 }  // namespace
+
+void reached_stretches(const optics::Light& light, const March& march, std::vector<Intervald>& out) {
+  const optics::ReachedParts reached =
+      optics::reached_parts(light, march.ray.origin, march.ray.direction, march.ray.t_max);
+  for (const Intervald& stretch : march.scattering_stretches)
+    for (int k = 0; k < reached.count; ++k) {
+      const Intervald part = stretch.clipped_to(reached.parts[k]);
+      if (!part.empty()) out.push_back(part);
+    }
+}
 
 DistanceMixture::DistanceMixture(const compile::CompiledScene& world, const March& march,
                                  const DensityDistribution& density, const Rgb& throughput, Distance distance,

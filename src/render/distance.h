@@ -14,6 +14,9 @@ namespace tyndall::render {
 
 struct Worker;
 
+// Appends the parts of the ray that scatter and that the light reaches, in order.
+void reached_stretches(const optics::Light& light, const March& march, std::vector<Intervald>& out);
+
 class DistanceMixture {
  public:
   // For the light of this index, when it is to be aimed at through `pivot` (none for lights without a place).

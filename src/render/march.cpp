@@ -266,6 +266,32 @@ void march(const CompiledScene& world, const compile::Ray& ray, compile::RayKind
   march(world, std::span(&request, 1), worker);
 }
 
+void evaluate_points(const CompiledScene& world, std::span<const MarchRequest> requests, Worker& worker) {
+  for (const MarchRequest& request : requests) {
+    March& m = *request.out;
+    m.count = static_cast<std::uint32_t>(m.t0.size());
+    m.dt.assign(m.count, 0.0);
+    m.blocks.clear();
+    for (const auto& i : m.intervals) {
+      const auto first = std::lower_bound(m.t0.begin(), m.t0.end(), i.t0),
+                 last = std::lower_bound(first, m.t0.end(), i.t1);
+      if (first == last) continue;
+      Block block;
+      block.volume = i.volume;
+      block.first = static_cast<std::uint32_t>(first - m.t0.begin());
+      block.count = static_cast<std::uint32_t>(last - first);
+      block.row_length = world.media[world.volumes[i.volume].medium].homogeneous ? 1 : block.count;
+      m.blocks.push_back(block);
+    }
+  }
+  evaluate(world, requests, worker);
+  for (const MarchRequest& request : requests) {
+    request.out->pool = worker.march_pool.data();
+    add_coefficients(world, *request.out);
+    worker.statistics.segments += request.out->count;
+  }
+}
+
 std::uint32_t March::segment_at(double t) const {
   const auto after = std::upper_bound(t0.begin(), t0.begin() + count, t);
   return after == t0.begin() ? 0 : static_cast<std::uint32_t>(after - t0.begin() - 1);

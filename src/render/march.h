@@ -125,6 +125,11 @@ void march(const compile::CompiledScene& world, std::span<const MarchRequest> re
 void march(const compile::CompiledScene& world, const compile::Ray& ray, compile::RayKind kind,
            std::uint32_t seed, Worker& worker, March& out);
 
+// Coefficients at points instead: the segments are the t0 that each request's march holds already, in order
+// and of no length, as are its ray and its intervals. Nothing is summed along the ray.
+void evaluate_points(const compile::CompiledScene& world, std::span<const MarchRequest> requests,
+                     Worker& worker);
+
 // Distances distributed as scattered radiance: per channel discrete over segments and exponential inside,
 // channels mixed in proportion to throughput times ∫ sigma_s T (transport §3, "Density").
 class DensityDistribution {

@@ -12,6 +12,7 @@
 #include "render/decisions.h"
 #include "render/light_met.h"
 #include "render/path_state.h"
+#include "render/propagation.h"
 #include "render/worker.h"
 
 namespace tyndall::render {
@@ -51,7 +52,7 @@ class PathTracer {
     while (start_paths(), active_ > 0) {
       worker_.march_requests.clear();
       for (std::size_t i = 0; i < active_; ++i) trace_ray(slot(i));
-      march(world_, worker_.march_requests, worker_);
+      propagate(world_, settings_, std::span(worker_.slots).first(active_), worker_);
       const std::size_t before = active_;
       for (std::size_t i = 0; i < before; ++i) ended_.push_back(!advance(i));
       trace_shadows();
@@ -103,8 +104,7 @@ class PathTracer {
     for (const Crossing& c : path.crossings) crossings.push_back({c.t, 1 - c.surface.opacity});
     s.ray.t_max = path.hit ? path.hit->t : infinity;
     path_ = &path;
-    worker_.march_requests.push_back(
-        {s.ray, kind, path.sampler->bits(id(Decision::jitter, s), 0), &path.march()});
+    request_propagation(world_, settings_, path, kind, worker_);
   }
 
   // What the ray of path i gathers, the direct light along it, and its next ray. False when the path ends.
@@ -132,6 +132,7 @@ class PathTracer {
     }
     const bool continues =
         s.depth < static_cast<std::uint32_t>(settings_.bounces) || settings_.gathers_after_last;
+    if (settings_.method == Method::tracking) light_aimed(s, continues);
     return scatter(s, m, path_->light(), continues);
   }
 
@@ -199,7 +200,8 @@ class PathTracer {
     const bool both =
         s.origin.kind == PathOrigin::Kind::camera;  // camera rays follow both, deeper ones choose
     const double volume_probability = both ? (volume_mass > 0) : volume_mass / (volume_mass + surface_mass);
-    strategies.set(world_, m, s.throughput, settings_.distance);
+    if (!flies(settings_.method))
+      strategies.set(world_, m, s.throughput, settings_.method, settings_.distance);
     if (volume_mass > 0) light_volume(s, strategies, continues, volume_probability);
 
     const double u = both && !met_.several() ? 0 : point(Decision::end_or_volume, s, 1)[0];
@@ -242,6 +244,13 @@ class PathTracer {
     }
   }
 
+  void light_aimed(const PathState& s, bool continues) {
+    worker_.shadows.set_sample(path_->sample, s.depth == 0 ? LightPart::volume_direct : s.part(s.depth + 1));
+    path_->light().sample_aimed(point(Decision::aimed, s, 5),
+                                sampler().bits(id(Decision::shadow, s), 0x20000), s.throughput, continues,
+                                worker_);
+  }
+
   void light_surface(const PathState& s, const SurfacePoint& surface, bool continues) {
     if (surface.only_deltas) return;
     LightChoice& lights = worker_.surface_lights;
@@ -258,23 +267,19 @@ class PathTracer {
 
   bool continue_in_volume(PathState& s, const March& m, const LightStrategies& strategies,
                           double volume_probability) {
-    const SobolPoint u = point(Decision::distance, s, 2), v = point(Decision::direction, s, 4);
-    const DensityDistribution& density = strategies.density();
-    const double t = density.sample(u[0], u[1]);
-    const std::uint32_t segment = m.segment_at(t);
-    const double pdf_t = density.pdf(segment, t) * volume_probability;
-    worker_.phase.set(world_, m, segment);
+    const SobolPoint v = point(Decision::direction, s, 4);
+    const Scattering at = draw_scattering(settings_, *path_, volume_probability);
+    worker_.phase.set(world_, m, at.segment);
     const float cosine_complement = worker_.phase.sample(v[0], v[1], v[2]);
     const float pdf_phase = worker_.phase.pdf(cosine_complement);
-    if (!(pdf_t > 0 && pdf_phase > 0)) return false;
+    if (!(at.pdf > 0 && pdf_phase > 0)) return false;
 
-    s.throughput *= m.sigma_s_at(segment) * m.transmittance_at(segment, t) *
-                    worker_.phase.eval(cosine_complement) * static_cast<float>(1 / (pdf_t * pdf_phase));
+    s.throughput *= at.weight * worker_.phase.eval(cosine_complement) * (1 / pdf_phase);
     s.first_in_volume |= s.depth == 0;
-    const Vec3d x = s.ray.origin + s.ray.direction * t;
+    const Vec3d x = s.ray.origin + s.ray.direction * at.t;
     const Vec3f w =
         optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[3]);
-    s.origin = {PathOrigin::Kind::volume, x, pdf_t * pdf_phase, &strategies, segment, t};
+    s.origin = {PathOrigin::Kind::volume, x, at.pdf * pdf_phase, &strategies, at.segment, at.t};
     s.ray = {x, normalize(Vec3d(w)), infinity};
     return next_depth(s);
   }
@@ -373,22 +378,6 @@ class PathTracer {
 };
 
 }  // namespace
-
-Worker::Worker() = default;
-Worker::~Worker() = default;
-
-PathSettings path_settings(const CompiledScene& world, const RenderOptions& options) {
-  const compile::Features& f = world.features;
-  PathSettings settings;
-  settings.distance = options.distance;
-  settings.transmittance = options.transmittance;
-  settings.light_samples = world.scene.settings.light_samples;
-  settings.bounces = world.scene.settings.bounces;
-  if (options.error || options.aovs.has(Aov::variance)) settings.groups = error_groups;
-  settings.gathers_after_last =
-      f.area_lights || f.distant_discs || f.environment || f.medium_emission || f.surface_emission;
-  return settings;
-}
 
 void trace_paths(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
                  std::span<const CameraSample> samples, Worker& worker, const PathOutputs& outputs) {

@@ -14,6 +14,7 @@ namespace tyndall::render {
 
 // What every sample of a render shares.
 struct PathSettings {
+  Method method = Method::decoupled;
   Distance distance = Distance::product;
   Transmittance transmittance = Transmittance::march;
   int light_samples = 1;

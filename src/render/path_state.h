@@ -10,6 +10,7 @@
 #include "render/aov.h"
 #include "render/crossings.h"
 #include "render/direct_light.h"
+#include "render/flight.h"
 #include "render/march.h"
 
 namespace tyndall::render {
@@ -54,10 +55,12 @@ struct PathSlot {
   // Of the current ray and of the one before, which weights what the current one meets.
   March marches[2];
   LightStrategies strategies[2];
+  Flight flights[2];  // of the methods that fly
   std::uint32_t current = 0;
 
   March& march() { return marches[current]; }
   LightStrategies& light() { return strategies[current]; }
+  Flight& flight() { return flights[current]; }
 };
 
 }  // namespace tyndall::render

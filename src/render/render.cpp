@@ -41,6 +41,7 @@ void sum_into(Statistics& total, const Worker& worker) {
   total.shadow_rays += s.shadow_rays;
   total.marches += s.marches;
   total.segments += s.segments;
+  total.cut_majorants += s.cut_majorants;
   total.widened_marches += s.widened_marches;
   total.cut_paths += s.cut_paths;
   total.cut_throughput += s.cut_throughput;

@@ -18,12 +18,20 @@ namespace tyndall::render {
 // How a distance along the ray is drawn for direct light.
 enum class Distance : std::uint8_t { mis, density, equiangular, product };
 
+// How a path goes through media (transport §2): decoupled keeps a march of each ray and takes light anywhere
+// on it; brute_force takes light at every step of it; stochastic goes to a drawn optical depth of it;
+// tracking is unbiased, by null collisions.
+enum class Method : std::uint8_t { decoupled, brute_force, stochastic, tracking };
+// Whether a ray is followed to one point instead of being kept whole.
+constexpr bool flies(Method method) { return method == Method::stochastic || method == Method::tracking; }
+
 // How transmittance towards a light is found where it has no closed form (transport §4).
 enum class Transmittance : std::uint8_t { march, jackknife, series };
 
 struct RenderOptions {
   int threads = 0;  // 0: all
-  Distance distance = Distance::product;
+  Method method = Method::decoupled;
+  Distance distance = Distance::product;  // of the decoupled method; of tracking as far as it has them
   Transmittance transmittance = Transmittance::march;
   // Half-open pixel rectangle and sample range; defaults: everything.
   struct Crop {
@@ -59,6 +67,7 @@ struct Statistics {
   std::uint64_t samples = 0, rays = 0, shadow_rays = 0, marches = 0, segments = 0;
   std::uint64_t vm_runs = 0, lanes_issued = 0, lanes_used = 0, vm_instructions = 0;
   std::uint64_t bad_samples = 0;
+  std::uint64_t cut_majorants = 0;    // bounds of extinction too great to track through
   std::uint64_t widened_marches = 0;  // marches whose segments were widened to fit the bound
   std::uint64_t cut_paths = 0;        // paths ended by `bounces` while they still carried light
   double cut_throughput = 0;          // mean over camera samples of the throughput so cut

@@ -8,8 +8,10 @@
 #include <memory>
 #include <vector>
 
+#include "compile/majorant_grid.h"
 #include "render/camera.h"
 #include "render/direct_light.h"
+#include "render/flight.h"
 #include "render/march.h"
 #include "render/product.h"
 #include "render/render.h"
@@ -69,6 +71,8 @@ struct Worker {
   ShadowBatch shadows;
   std::vector<Intervald> stretches;
   Product product;
+  std::vector<FlightRequest> flight_requests;
+  compile::BoundsScratch bounds;
   std::vector<double> edges, reach;  // of the march at work
 };
 

@@ -12,6 +12,13 @@ namespace tyndall::tools {
 template <class Method>
 using Choice = std::pair<std::string_view, Method>;
 
+inline constexpr Choice<render::Method> methods[] = {
+    {"decoupled", render::Method::decoupled},
+    {"brute-force", render::Method::brute_force},
+    {"stochastic", render::Method::stochastic},
+    {"tracking", render::Method::tracking},
+};
+
 inline constexpr Choice<render::Distance> distances[] = {
     {"mis", render::Distance::mis},
     {"density", render::Distance::density},
@@ -32,6 +39,7 @@ constexpr std::string_view name_in(const Choice<Method> (&table)[count], Method 
     if (entry == method) return name;
   return {};
 }
+constexpr std::string_view name(render::Method method) { return name_in(methods, method); }
 constexpr std::string_view name(render::Distance method) { return name_in(distances, method); }
 constexpr std::string_view name(render::Transmittance method) { return name_in(transmittances, method); }
 

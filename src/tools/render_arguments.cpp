@@ -141,6 +141,7 @@ void add_choice(CLI::App& command, const std::string& option, const Choice<Metho
 }
 
 void add_method_options(CLI::App& command, RenderArguments& arguments) {
+  add_choice(command, "--method", methods, arguments.method, "how paths go through media");
   add_choice(command, "--distance", distances, arguments.distance,
              "how distances for direct light are drawn");
   add_choice(command, "--transmittance", transmittances, arguments.transmittance,
@@ -268,6 +269,7 @@ std::string replay_command(const RenderArguments& arguments, int x, int y, std::
   add("--error", arguments.error);
   if (arguments.aovs.has(render::Aov::variance)) command += " --aov variance";
   const RenderArguments defaults;
+  if (arguments.method != defaults.method) command += fmt::format(" --method {}", name(arguments.method));
   if (arguments.distance != defaults.distance)
     command += fmt::format(" --distance {}", name(arguments.distance));
   if (arguments.transmittance != defaults.transmittance)

@@ -29,6 +29,7 @@ struct RenderArguments {
   std::optional<double> time_limit;  // [s]
   render::AovSet aovs;
   int threads = 0;
+  render::Method method = render::RenderOptions{}.method;
   render::Distance distance = render::RenderOptions{}.distance;
   render::Transmittance transmittance = render::RenderOptions{}.transmittance;
   bool strict = false, quiet = false, json = false;

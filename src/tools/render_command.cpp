@@ -67,6 +67,7 @@ double exposure_of(const scene::Scene& scene) {
 render::RenderOptions options_of(const RenderArguments& arguments) {
   render::RenderOptions options;
   options.threads = arguments.threads;
+  options.method = arguments.method;
   options.distance = arguments.distance;
   options.transmittance = arguments.transmittance;
   options.crop = arguments.crop;

@@ -57,9 +57,9 @@ image::Metadata metadata_of(const RenderArguments& arguments, const scene::Scene
                             const std::string& scene_hash, const render::Statistics& statistics) {
   const SampleRange samples = samples_of(arguments, scene);
   std::string settings =
-      fmt::format("step={} light_samples={} bounces={} distance={} transmittance={}", scene.settings.step,
-                  scene.settings.light_samples, scene.settings.bounces, name(arguments.distance),
-                  name(arguments.transmittance));
+      fmt::format("step={} light_samples={} bounces={} method={} distance={} transmittance={}",
+                  scene.settings.step, scene.settings.light_samples, scene.settings.bounces,
+                  name(arguments.method), name(arguments.distance), name(arguments.transmittance));
   if (arguments.crop) {
     const auto& crop = *arguments.crop;
     settings += fmt::format(" crop={},{},{},{}", crop.x0, crop.y0, crop.x1, crop.y1);
@@ -110,6 +110,7 @@ nlohmann::json statistics_json(const scene::Scene& scene, const std::string& sce
       {"shadow_rays", s.shadow_rays},
       {"marches", s.marches},
       {"segments", s.segments},
+      {"cut_majorants", s.cut_majorants},
       {"widened_marches", s.widened_marches},
       {"vm",
        {{"runs", s.vm_runs},

@@ -151,6 +151,7 @@ TEST_F(WrongInput, MisuseIsStatusTwo) {
       {"render", scene, "-o", path("a.png"), "--sample-range", "4..2"},
       {"render", scene, "-o", path("a.png"), "--distance", "nearest"},
       {"render", scene, "-o", path("a.png"), "--transmittance", "guess"},
+      {"render", scene, "-o", path("a.png"), "--method", "magic"},
       {"render", scene, "-o", path("a.png"), "--threads", "0"},
       {"render", scene, "-o", path("a.png"), "--seed", "-1"},
       {"render", scene, "-o", path("a.png"), "--set", "thickness"},

@@ -4,6 +4,7 @@
 
 #include "support/law_scenes.h"
 #include "support/measure.h"
+#include "support/ways.h"
 
 namespace tyndall {
 namespace {
@@ -11,32 +12,20 @@ namespace {
 using namespace support;
 using render::Distance;
 
-class Airlight : public testing::TestWithParam<Distance> {};
+class Airlight : public testing::TestWithParam<Way> {};
 
 TEST_P(Airlight, PublishedRows) {
   for (const support::Airlight& row : airlight_rows)
     for (std::size_t i = 0; i < 3; ++i) {
       SceneBuilder builder = airlight(row, airlight_g[i]);
       builder.image(32, 32, 16);
-      render::RenderOptions options;
-      options.distance = GetParam();
-      expect_truth(measure(builder.scene, options).whole(), row.radiance[i], 1e-8 * row.radiance[i], 0.01,
+      expect_truth(measure(builder.scene, GetParam().options()).whole(), row.radiance[i],
+                   1e-8 * row.radiance[i], 0.02,
                    "sigma_t " + std::to_string(row.sigma_t) + " g " + std::to_string(airlight_g[i]));
     }
 }
-INSTANTIATE_TEST_SUITE_P(Laws, Airlight,
-                         testing::Values(Distance::mis, Distance::density, Distance::equiangular),
-                         [](const auto& strategy) {
-                           switch (strategy.param) {
-                             case Distance::mis:
-                               return "Mis";
-                             case Distance::density:
-                               return "Density";
-                             case Distance::equiangular:
-                               return "Equiangular";
-                           }
-                           return "";
-                         });
+INSTANTIATE_TEST_SUITE_P(Laws, Airlight, testing::ValuesIn(ways()),
+                         [](const auto& way) { return way.param.name; });
 
 // Without extinction equi-angular sampling is exact: the weights of all samples are one number. At σ = 1e-6
 // the transmittance still moves by 1e-5 from one end of the ray to the other.

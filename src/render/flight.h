@@ -1,0 +1,66 @@
+// Free flights: methods that follow one way along a ray, `--method tracking` and `stochastic`, instead of
+// keeping the whole of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compile/compiled_scene.h"
+#include "render/march.h"
+
+namespace tyndall::render {
+
+// Upper bounds of extinction along a ray, of all volumes together: majorant[i] over [edges[i], edges[i + 1]).
+struct MajorantLine {
+  std::vector<double> edges;
+  std::vector<double> majorant;  // [1/m]
+};
+
+// Where a ray went, and with what weights. Densities are of the path with its null collisions, as all
+// strategies share them (Miller, Georgiev and Jarosz 2019).
+struct Flight {
+  bool collided = false;  // scattered at t; else it reached the ray's end
+  double t = 0;
+  Rgb weight;          // of what is scattered (sigma_s in it), or of what reaches the end
+  double density = 0;  // of the collision [1/m]
+
+  // A point chosen before the flight, towards a light: what is scattered there, and the density with which a
+  // flight over the same null collisions would have collided there.
+  std::optional<double> aimed_t;
+  Rgb aimed_weight;
+  double aimed_density = 0;
+
+  // On the way.
+  MajorantLine line;
+  std::vector<double> candidate_majorant;
+  double cursor = 0;          // how far the candidates have come
+  std::uint32_t counter = 0;  // of random numbers
+  Vec3d through;              // weights when every candidate so far was null
+  double null_probability = 1;
+  Vec3d aimed_through;  // transmittance estimated by ratio tracking, up to the aimed point
+  Vec3d aimed_weights;  // `through` there
+  double aimed_null_probability = 1;
+  double aimed_boost = 1;  // of roulette
+};
+
+struct FlightRequest {
+  std::uint32_t seed = 0;
+  Rgb throughput;
+  March* march = nullptr;  // with its ray and intervals; gets the aimed and the collision point, as segments
+                           // of no length in order of t, and the light emitted on the way
+  Flight* flight = nullptr;
+};
+
+// The ray's volumes, for a flight: intervals and the stretches that scatter.
+void find_volumes(const compile::CompiledScene& world, const compile::Ray& ray, compile::RayKind kind,
+                  March& out);
+
+// Unbiased flights by null collisions (Woodcock et al. 1965): candidates of all rays in one batch.
+void track(const compile::CompiledScene& world, std::span<const FlightRequest> requests, Worker& worker);
+
+// A flight to a drawn optical depth of a march (Lafortune and Willems 1996), for two numbers in [0, 1).
+void fly_to_depth(March& march, const Rgb& throughput, float u_channel, float u, Flight& flight);
+
+}  // namespace tyndall::render

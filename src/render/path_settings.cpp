@@ -1,0 +1,21 @@
+// What the options and the scene say to every path.
+#include "render/path.h"
+
+namespace tyndall::render {
+
+PathSettings path_settings(const compile::CompiledScene& world, const RenderOptions& options) {
+  const compile::Features& f = world.features;
+  PathSettings settings;
+  settings.method = options.method;
+  settings.distance = options.distance;
+  settings.transmittance = options.transmittance;
+  // Light at every step, and flights, take their one sample a place.
+  settings.light_samples = options.method == Method::decoupled ? world.scene.settings.light_samples : 1;
+  settings.bounces = world.scene.settings.bounces;
+  if (options.error || options.aovs.has(Aov::variance)) settings.groups = error_groups;
+  settings.gathers_after_last =
+      f.area_lights || f.distant_discs || f.environment || f.medium_emission || f.surface_emission;
+  return settings;
+}
+
+}  // namespace tyndall::render

@@ -1,0 +1,65 @@
+#include "render/propagation.h"
+
+#include "render/decisions.h"
+#include "render/worker.h"
+
+namespace tyndall::render {
+
+namespace {
+
+std::uint64_t id(Decision d, const PathState& s) { return decision(d, s.depth, s.branch); }
+
+}  // namespace
+
+void request_propagation(const compile::CompiledScene& world, const PathSettings& settings, PathSlot& path,
+                         compile::RayKind kind, Worker& worker) {
+  const PathState& s = path.state;
+  if (settings.method != Method::tracking) {
+    worker.march_requests.push_back(
+        {s.ray, kind, path.sampler->bits(id(Decision::jitter, s), 0), &path.march()});
+    return;
+  }
+  // The light is chosen first, so that the flight knows a point to be aimed at.
+  find_volumes(world, s.ray, kind, path.march());
+  path.light().set(world, path.march(), s.throughput, settings.method, settings.distance);
+  path.light().aim(path.sampler->point(id(Decision::aimed, s)), path.flight(), worker);
+  worker.flight_requests.push_back(
+      {path.sampler->bits(id(Decision::flight, s), 0), s.throughput, &path.march(), &path.flight()});
+}
+
+void propagate(const compile::CompiledScene& world, const PathSettings& settings,
+               std::span<const std::unique_ptr<PathSlot>> paths, Worker& worker) {
+  if (settings.method == Method::tracking) {
+    track(world, worker.flight_requests, worker);
+    worker.flight_requests.clear();
+    return;
+  }
+  march(world, worker.march_requests, worker);
+  if (settings.method != Method::stochastic) return;
+  for (const auto& path : paths) {
+    const PathState& s = path->state;
+    const SobolPoint u = path->sampler->point(id(Decision::distance, s), 2);
+    path->light().set(world, path->march(), s.throughput, settings.method, settings.distance);
+    path->light().aim({}, path->flight(), worker);
+    fly_to_depth(path->march(), s.throughput, u[0], u[1], path->flight());
+  }
+}
+
+Scattering draw_scattering(const PathSettings& settings, PathSlot& path, double volume_probability) {
+  const March& m = path.march();
+  if (flies(settings.method)) {
+    const Flight& flight = path.flight();
+    return {flight.t, m.segment_at(flight.t), flight.density, flight.weight};
+  }
+  const SobolPoint u = path.sampler->point(id(Decision::distance, path.state), 2);
+  const DensityDistribution& density = path.light().density();
+  Scattering out;
+  out.t = density.sample(u[0], u[1]);
+  out.segment = m.segment_at(out.t);
+  out.pdf = density.pdf(out.segment, out.t) * volume_probability;
+  out.weight =
+      m.sigma_s_at(out.segment) * m.transmittance_at(out.segment, out.t) * static_cast<float>(1 / out.pdf);
+  return out;
+}
+
+}  // namespace tyndall::render
