@@ -26,7 +26,11 @@ enum class Method : std::uint8_t { decoupled, brute_force, stochastic, tracking 
 constexpr bool flies(Method method) { return method == Method::stochastic || method == Method::tracking; }
 
 // How transmittance towards a light is found where it has no closed form (transport §4).
-enum class Transmittance : std::uint8_t { march, jackknife, series };
+enum class Transmittance : std::uint8_t { march, jackknife, ratio, residual_ratio, series };
+// Whether it needs proven bounds instead of steps.
+constexpr bool by_ratio(Transmittance method) {
+  return method == Transmittance::ratio || method == Transmittance::residual_ratio;
+}
 
 struct RenderOptions {
   int threads = 0;  // 0: all

@@ -34,6 +34,7 @@ std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& worl
   estimates_.assign(rays_.size(), {0, 0});
   depth_.clear();
   stays_.clear();
+  ratio_.clear(rays_.size());
   for (std::uint32_t r = 0; r < rays_.size(); ++r) {
     ++worker.statistics.shadow_rays;
     if (world.features.see_through)
@@ -43,11 +44,13 @@ std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& worl
     if (world.features.volumes && !is_black(rays_[r].contribution)) collect_stays(world, r, method, worker);
   }
   march_stays(world, worker);
+  ratio_.run(world, method, rays_, worker);
 
   const bool grey = !world.features.chromatic_extinction;
   for (std::uint32_t r = 0; r < rays_.size(); ++r) {
     Vec3d t;
-    for (std::size_t c = 0; c < 3; ++c) t[c] = c > 0 && grey ? t[0] : transmittance(r, c, method);
+    for (std::size_t c = 0; c < 3; ++c)
+      t[c] = c > 0 && grey ? t[0] : transmittance(r, c, method) * ratio_.transmittance(r)[c];
     rays_[r].contribution *= Rgb(t);
   }
   return rays_;
@@ -63,6 +66,10 @@ void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32
     const double length = i.t1 - i.t0;
     if (medium.constant_sigma_t) {
       closed_[ray] += Vec3d(*medium.constant_sigma_t) * length;
+      continue;
+    }
+    if (by_ratio(method) && volume.grid != compile::no_index) {
+      ratio_.add(ray, i, volume.medium);
       continue;
     }
     if (estimates_[ray].count == 0) lay_estimates(ray, method);
@@ -81,6 +88,8 @@ void ShadowBatch::lay_estimates(std::uint32_t ray, Transmittance method) {
   e.first = static_cast<std::uint32_t>(depth_.size());
   switch (method) {
     case Transmittance::march:
+    case Transmittance::ratio:
+    case Transmittance::residual_ratio:
       e.count = 1;
       break;
     case Transmittance::jackknife:
@@ -101,6 +110,8 @@ double ShadowBatch::transmittance(std::uint32_t ray, std::size_t c, Transmittanc
   for (std::uint32_t k = 0; k < e.count; ++k) one_channel_.push_back(depth_[e.first + k][c]);
   switch (method) {
     case Transmittance::march:
+    case Transmittance::ratio:
+    case Transmittance::residual_ratio:
       return closed * std::exp(-one_channel_[0]);
     case Transmittance::jackknife:
       return closed * jackknife(one_channel_[0], one_channel_[1]);

@@ -8,6 +8,7 @@
 
 #include "compile/compiled_scene.h"
 #include "render/aov.h"
+#include "render/ratio_tracking.h"
 #include "render/render.h"
 
 namespace tyndall::render {
@@ -66,6 +67,7 @@ class ShadowBatch {
   std::vector<Vec3d> depth_;          // estimated optical depth, per march
   std::vector<compile::VolumeInterval> intervals_;
   std::vector<Stay> stays_;
+  RatioTracking ratio_;
   std::vector<float> values_;
   std::vector<double> one_channel_;
 };

@@ -10,6 +10,9 @@ bool bench_scenes(double seconds);
 // The estimators of transmittance on known densities: bias and error at each cost.
 void bench_transmittance();
 
+// Prints docs/verification.md. False when a line fails.
+bool print_verification();
+
 }  // namespace tyndall
 
 namespace tyndall::vm {

@@ -1,5 +1,5 @@
-// tyndall-bench [vm|ops|scenes|transmittance] [seconds]: how fast things are, by hand; no test. Exits with 1 when
-// the VM misses a target.
+// tyndall-bench [vm|ops|scenes|transmittance|verify] [seconds]: how fast things are, by hand; no test. Exits
+// with 1 when the VM misses a target.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -11,15 +11,18 @@ int main(int argc, char** argv) {
   const std::string_view what = argc > 1 ? argv[1] : "all";
   const double seconds = argc > 2 ? std::atof(argv[2]) : 0.3;
   const bool all = what == "all";
-  const bool known = all || what == "vm" || what == "ops" || what == "scenes" || what == "transmittance";
+  const bool known =
+      all || what == "vm" || what == "ops" || what == "scenes" || what == "transmittance" || what == "verify";
   if (!known || !(seconds > 0)) {
-    fmt::print(stderr, "usage: tyndall-bench [vm|ops|scenes|transmittance|all] [seconds a row, > 0]\n");
+    fmt::print(stderr,
+               "usage: tyndall-bench [vm|ops|scenes|transmittance|verify|all] [seconds a row, > 0]\n");
     return 2;
   }
   bool good = true;
   if (all || what == "vm") good &= tyndall::vm::bench(seconds);
   if (what == "ops") tyndall::vm::bench_ops(seconds / 10);
   if (what == "transmittance") tyndall::bench_transmittance();
+  if (what == "verify") good = tyndall::print_verification();
   if (all || what == "scenes") good &= tyndall::bench_scenes(seconds);
   return good ? 0 : 1;
 }

@@ -10,18 +10,21 @@ namespace tyndall {
 
 void bench_transmittance() {
   using render::Transmittance;
-  constexpr std::pair<const char*, Transmittance> methods[] = {{"march", Transmittance::march},
-                                                               {"jackknife", Transmittance::jackknife},
-                                                               {"series", Transmittance::series}};
+  constexpr std::pair<const char*, Transmittance> methods[] = {
+      {"march", Transmittance::march},
+      {"jackknife", Transmittance::jackknife},
+      {"ratio", Transmittance::ratio},
+      {"residual-ratio", Transmittance::residual_ratio},
+      {"series", Transmittance::series}};
   constexpr int count = 1 << 16;
-  fmt::print("{:28} {:>5} {:>10} {:>12} {:>12} {:>10} {:>10}\n", "density", "step", "method", "evaluations",
+  fmt::print("{:28} {:>5} {:>14} {:>12} {:>12} {:>14} {:>14}\n", "density", "step", "method", "evaluations",
              "bias/T", "+-", "rmse/T");
   for (const support::KnownDensity& known : support::transmittance_densities())
     for (const double step : {0.4, 0.2, 0.1, 0.05, 0.025})
       for (const auto& [name, method] : methods) {
         const auto m = support::measure_transmittance(known, method, step, count);
         const double truth = std::exp(-known.tau);
-        fmt::print("{:28} {:5} {:>10} {:12.1f} {:11.3f}% {:9.3f}% {:9.2f}%\n", known.name, step, name,
+        fmt::print("{:28} {:5} {:>14} {:12.1f} {:11.3f}% {:9.3f}% {:9.2f}%\n", known.name, step, name,
                    m.evaluations, 100 * (m.mean / truth - 1), 100 * m.standard_error / truth,
                    100 * m.rmse / truth);
       }

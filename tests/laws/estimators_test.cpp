@@ -77,6 +77,19 @@ TEST(PowerSeries, IsUnbiasedForTwoPointEstimates) {
   EXPECT_LT(used / draws, 1.4) << "estimates that one value costs";
 }
 
+// Ratio and residual ratio tracking have no bias either, and know nothing of steps: also not of the spike's,
+// whose variance is only that of random points.
+TEST(RatioTransmittance, IsUnbiased) {
+  for (const KnownDensity& known : transmittance_densities())
+    for (const Transmittance method : {Transmittance::ratio, Transmittance::residual_ratio}) {
+      const TransmittanceMeasure m = measure_transmittance(known, method, 0.1, estimates);
+      const double truth = std::exp(-known.tau);
+      EXPECT_NEAR(m.mean, truth, 4 * m.standard_error + 1e-6 * truth)
+          << known.name << (method == Transmittance::ratio ? ", ratio" : ", residual ratio");
+      EXPECT_LT(m.standard_error, 0.05 * truth) << known.name;
+    }
+}
+
 // What the jackknife gains: at as many evaluations its bias is a small part of the march's where that is
 // large, as long as the depths scatter by less than about 1.
 TEST(JackknifeTransmittance, HasLessBiasThanTheMarch) {

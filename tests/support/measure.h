@@ -15,16 +15,12 @@
 #include "compile/compiled_scene.h"
 #include "render/reference.h"
 #include "render/render.h"
+#include "support/region_estimate.h"
 
 namespace tyndall::support {
 
 inline constexpr int seed_count = 16;
 inline constexpr double sigmas = 4;
-
-// The mean radiance of a region and its standard error, by channel.
-struct Estimate {
-  Vec3d mean, standard_error;
-};
 
 // The pictures of all seeds.
 struct Measurement {
@@ -32,24 +28,7 @@ struct Measurement {
   std::vector<render::Film> films;
 
   // Over the pixels of [x0, x1) × [y0, y1).
-  Estimate region(int x0, int y0, int x1, int y1) const {
-    Vec3d sum, sum_of_squares;
-    for (const render::Film& film : films) {
-      Vec3d mean;
-      for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < x1; ++x) mean += Vec3d(film.mean(x, y));
-      mean /= static_cast<double>(x1 - x0) * (y1 - y0);
-      sum += mean;
-      sum_of_squares += mean * mean;
-    }
-    const auto n = static_cast<double>(films.size());
-    Estimate estimate{sum / n, {}};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double variance = std::max(0.0, sum_of_squares[c] / n - estimate.mean[c] * estimate.mean[c]);
-      estimate.standard_error[c] = std::sqrt(variance / (n - 1));
-    }
-    return estimate;
-  }
+  Estimate region(int x0, int y0, int x1, int y1) const { return region_estimate(films, x0, y0, x1, y1); }
   Estimate whole() const { return region(0, 0, width, height); }
 };
 
