@@ -135,17 +135,39 @@ double null_probability(const Rgb& throughput, const Vec3d& through, const Vec3d
   return std::min(share / majorant, 1.0);
 }
 
+// Surfaces up to t that let only a part through are met by chance too: a path has one end.
+void cross_until(const FlightRequest& r, double t) {
+  Flight& f = *r.flight;
+  auto& crossings = r.march->crossings;
+  for (; f.crossing < crossings.size() && crossings[f.crossing].t <= t; ++f.crossing) {
+    MarchCrossing& c = crossings[f.crossing];
+    c.before = {};
+    if (f.aimed_t && c.t < *f.aimed_t) {
+      f.aimed_through *= c.pass;
+      f.aimed_null_probability *= c.pass;
+    }
+    if (f.ended()) continue;
+    if (uniform(r) >= c.pass) {
+      f.stopped = true;
+      c.before = Rgb(f.through / (1 - c.pass));  // of which the surface's opacity takes its part
+    } else {
+      f.null_probability *= c.pass;
+    }
+  }
+}
+
 // What the candidates are, one after the other. False when the flight is over.
 bool walk_candidates(const CompiledScene& world, const FlightRequest& r, Vec3d& emitted) {
   Flight& f = *r.flight;
   const March& m = *r.march;
   for (std::size_t j = 0; j < m.t0.size(); ++j) {
+    cross_until(r, m.t0[j]);
     const double majorant = f.candidate_majorant[j];
     const Vec3d sigma_t = extinction(m, j);
     Vec3d null;
     for (std::size_t c = 0; c < 3; ++c) null[c] = std::max(0.0, majorant - sigma_t[c]);
     const double p_null = null_probability(r.throughput, f.through, null, majorant);
-    if (!f.collided) {
+    if (!f.ended()) {
       if (world.features.medium_emission) emitted += f.through * channels(m.emission, m, j) / majorant;
       if (uniform(r) >= p_null) {
         f.collided = true;
@@ -159,7 +181,7 @@ bool walk_candidates(const CompiledScene& world, const FlightRequest& r, Vec3d& 
       f.aimed_through = f.aimed_through * null / majorant;
       f.aimed_null_probability *= p_null;
     }
-    if (f.collided && !(aims && f.aimed_null_probability > 0)) return false;
+    if (f.ended() && !(aims && f.aimed_null_probability > 0)) return false;
     if (p_null > 0) {
       f.through = f.through * null / (majorant * p_null);
       f.null_probability *= p_null;
@@ -173,7 +195,7 @@ bool walk_candidates(const CompiledScene& world, const FlightRequest& r, Vec3d& 
 // roulette.
 bool still_worth(const FlightRequest& r) {
   Flight& f = *r.flight;
-  if (!f.collided) return true;
+  if (!f.ended()) return true;
   const double left = std::max({f.aimed_through.x, f.aimed_through.y, f.aimed_through.z});
   if (left * f.aimed_boost > 0.01) return true;
   constexpr double survival = 0.1;
@@ -197,7 +219,7 @@ void show_in_march(const Flight& f, March& m) {
   for (std::size_t c = 0; c < 3; ++c) {
     m.transmittance[c].resize(m.count + 1);
     m.scattered[c].resize(m.count + 1);
-    m.transmittance[c][m.count] = f.collided ? 0.0 : f.weight[c];
+    m.transmittance[c][m.count] = f.ended() ? 0.0 : f.weight[c];
     m.scattered[c][m.count] = f.collided ? f.weight[c] : 0.0;
   }
 }
@@ -205,6 +227,7 @@ void show_in_march(const Flight& f, March& m) {
 void finish(const FlightRequest& r, const Vec3d& emitted) {
   March& m = *r.march;
   Flight& f = *r.flight;
+  cross_until(r, infinity);
   m.emitted = Rgb(emitted);
   if (!f.collided) f.weight = Rgb(f.through);
   show_in_march(f, m);
@@ -277,9 +300,8 @@ void track(const CompiledScene& world, std::span<const FlightRequest> requests, 
 }
 
 void fly_to_depth(March& m, const Rgb& throughput, float u_channel, float u, Flight& f) {
-  f.collided = false;
+  f.collided = f.stopped = false;
   f.aimed_t = {};
-  f.through = Vec3d(m.end_transmittance());
   std::array<double, 3> share{};
   double all = 0;
   for (std::size_t c = 0; c < 3; ++c) all += share[c] = std::abs(throughput[c]);
@@ -287,27 +309,36 @@ void fly_to_depth(March& m, const Rgb& throughput, float u_channel, float u, Fli
   std::size_t channel = 0;
   for (double rest = u_channel * all; channel < 2 && rest >= share[channel]; ++channel)
     rest -= share[channel];
+  const auto mean = [&](const Vec3d& v) { return (share[0] * v.x + share[1] * v.y + share[2] * v.z) / all; };
   const int row = m.extinction_row(static_cast<int>(channel));
+  const double left = 1 - double{u};  // the flight ends where less is left
+
+  double reached = infinity;  // no surface lets it further than here
+  for (MarchCrossing& c : m.crossings) {
+    const Vec3d before(c.before);
+    c.before = {};
+    if (f.stopped || before[channel] * c.pass >= left) continue;
+    f.stopped = true;
+    reached = c.t;
+    c.before = Rgb(before / (mean(before) * (1 - c.pass)));
+  }
   const std::vector<double>& transmittance = m.transmittance[row];
-  // The first segment at whose end less than 1 - u is left.
-  const double left = 1 - double{u};
-  const auto after = std::partition_point(transmittance.begin() + 1, transmittance.begin() + m.count + 1,
-                                          [left](double t) { return t >= left; });
-  const auto i = static_cast<std::uint32_t>(after - transmittance.begin() - 1);
-  f.collided = m.count > 0 && i < m.count;
-  double density = 0;
-  const auto mix = [&](const Vec3d& v) {
-    for (std::size_t c = 0; c < 3; ++c) density += share[c] / all * v[c];
-    return density;
-  };
-  if (!f.collided) {
-    f.weight = mix(f.through) > 0 ? Rgb(f.through / density) : Rgb{};
-  } else {
-    const double sigma = m.sigma_t[row][i];
+  for (std::uint32_t i = 0; i < m.count && m.t0[i] < reached; ++i) {
+    const double sigma = m.sigma_t[row][i], end = transmittance[i] * std::exp(-sigma * m.dt[i]);
+    if (end >= left) continue;
+    f.collided = true;
     f.t = m.t0[i] + std::clamp(std::log(transmittance[i] / left) / sigma, 0.0, m.dt[i]);
     const Vec3d through(m.transmittance_at(i, f.t));
-    f.density = mix(extinction(m, i) * through);
+    f.density = mean(extinction(m, i) * through);
     f.weight = f.density > 0 ? Rgb(through * Vec3d(m.sigma_s_at(i)) / f.density) : Rgb{};
+    break;
+  }
+  if (f.collided) {
+    f.stopped = false;
+    for (MarchCrossing& c : m.crossings) c.before = {};
+  } else {
+    const Vec3d through(m.end_transmittance());
+    f.weight = mean(through) > 0 ? Rgb(through / mean(through)) : Rgb{};
   }
   show_in_march(f, m);
 }

@@ -21,10 +21,13 @@ struct MajorantLine {
 // Where a ray went, and with what weights. Densities are of the path with its null collisions, as all
 // strategies share them (Miller, Georgiev and Jarosz 2019).
 struct Flight {
-  bool collided = false;  // scattered at t; else it reached the ray's end
+  bool collided = false;  // scattered at t
+  bool stopped = false;   // by a surface that lets only a part through; with neither it reached the ray's end
   double t = 0;
   Rgb weight;          // of what is scattered (sigma_s in it), or of what reaches the end
   double density = 0;  // of the collision [1/m]
+
+  bool ended() const { return collided || stopped; }
 
   // A point chosen before the flight, towards a light: what is scattered there, and the density with which a
   // flight over the same null collisions would have collided there.
@@ -37,6 +40,7 @@ struct Flight {
   std::vector<double> candidate_majorant;
   double cursor = 0;          // how far the candidates have come
   std::uint32_t counter = 0;  // of random numbers
+  std::size_t crossing = 0;   // the next surface on the way
   Vec3d through;              // weights when every candidate so far was null
   double null_probability = 1;
   Vec3d aimed_through;  // transmittance estimated by ratio tracking, up to the aimed point

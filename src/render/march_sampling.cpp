@@ -1,0 +1,106 @@
+// What is drawn from a march: distances by density, and directions by its phase functions.
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "render/march.h"
+#include "render/worker.h"
+
+namespace tyndall::render {
+
+DensityDistribution::DensityDistribution(const March& march, const Rgb& throughput) : march_(march) {
+  if (march.channels == 1) {
+    total_ = march.count > 0 ? march.scattered[0][march.count] : 0;
+    share_[0] = 1;
+    return;
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    share_[c] = march.count > 0 ? std::max(0.0f, throughput[c]) * march.scattered[c][march.count] : 0;
+    total_ += share_[c];
+  }
+  if (total_ > 0)
+    for (double& share : share_) share /= total_;
+}
+
+double DensityDistribution::sample(float u_channel, float u) const {
+  int c = 0;
+  double rest = u_channel;
+  while (c + 1 < march_.channels && rest >= share_[c]) rest -= share_[c++];
+  while (share_[c] == 0 && c > 0) --c;  // rounding may leave the last channel with nothing to give
+  const std::vector<double>& scattered = march_.scattered[c];
+  const double target = u * scattered[march_.count];
+  const auto after = std::upper_bound(scattered.begin(), scattered.begin() + march_.count + 1, target);
+  const auto i = static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(after - scattered.begin() - 1, 0));
+  const std::uint32_t segment = std::min(i, march_.count - 1);
+  const double mass = scattered[segment + 1] - scattered[segment];
+  const double part = mass > 0 ? std::clamp((target - scattered[segment]) / mass, 0.0, 1.0) : 0.0;
+  // Invert 1 - e^(-sigma x) = part (1 - e^(-sigma dt)); uniform in the limit of no extinction.
+  const double sigma = march_.sigma_t[march_.extinction_row(c)][segment], depth = sigma * march_.dt[segment];
+  const double x = depth < 1e-6 ? part * march_.dt[segment] : -std::log1p(part * std::expm1(-depth)) / sigma;
+  return march_.t0[segment] + std::min(x, march_.dt[segment]);
+}
+
+double DensityDistribution::pdf(std::uint32_t i, double t) const {
+  if (!available()) return 0;
+  const double x = std::clamp(t - march_.t0[i], 0.0, march_.dt[i]);
+  double pdf = 0, transmittance = 0;
+  for (int c = 0; c < march_.channels; ++c) {
+    if (c < march_.extinction_channels)
+      transmittance = march_.transmittance[c][i] * std::exp(-double{march_.sigma_t[c][i]} * x);
+    if (share_[c] > 0)
+      pdf += share_[c] * march_.sigma_s[c][i] * transmittance / march_.scattered[c][march_.count];
+  }
+  return pdf;
+}
+
+void PhaseMixture::set(const CompiledScene& world, const March& m, std::uint32_t segment) {
+  lobes_.clear();
+  Rgb total;
+  for (const Block& b : m.blocks) {
+    if (!b.holds(segment)) continue;
+    const scene::Medium& medium = world.scene.media[world.volumes[b.volume].medium];
+    const auto output = [&](std::uint8_t k) { return m.output(b, k, segment); };
+    const auto number = [&](const scene::PhaseLobe::Number& n) {
+      return n.output ? output(*n.output) : n.value;
+    };
+    const Rgb sigma_s{output(medium.sigma_s[0]), output(medium.sigma_s[1]), output(medium.sigma_s[2])};
+    for (const scene::PhaseLobe& lobe : medium.phase) {
+      Lobe out;
+      out.phase.kind = lobe.kind;
+      for (std::size_t k = 0; k < lobe.parameters.size(); ++k)
+        out.phase.parameters[k] = number(lobe.parameters[k]);
+      out.share = sigma_s * std::max(0.0f, number(lobe.weight));
+      total += out.share;
+      lobes_.push_back(out);
+    }
+  }
+  float sum = 0;
+  for (Lobe& lobe : lobes_) {
+    for (std::size_t c = 0; c < 3; ++c) lobe.share[c] = total[c] > 0 ? lobe.share[c] / total[c] : 0.0f;
+    lobe.probability = (lobe.share.x + lobe.share.y + lobe.share.z) / 3;
+    sum += lobe.probability;
+  }
+  if (sum > 0)
+    for (Lobe& lobe : lobes_) lobe.probability /= sum;
+}
+
+Rgb PhaseMixture::eval(float one_minus_cos) const {
+  Rgb sum;
+  for (const Lobe& lobe : lobes_) sum += lobe.share * lobe.phase.eval(one_minus_cos);
+  return sum;
+}
+
+float PhaseMixture::pdf(float one_minus_cos) const {
+  float sum = 0;
+  for (const Lobe& lobe : lobes_) sum += lobe.probability * lobe.phase.eval(one_minus_cos);
+  return sum;
+}
+
+float PhaseMixture::sample(float u_lobe, float u0, float u1) const {
+  CHECK(!lobes_.empty());
+  std::size_t i = 0;
+  while (i + 1 < lobes_.size() && u_lobe >= lobes_[i].probability) u_lobe -= lobes_[i++].probability;
+  return lobes_[i].phase.sample(u0, u1);
+}
+
+}  // namespace tyndall::render
