@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/check.h"
 #include "render/medium_lanes.h"
 #include "render/worker.h"
 

@@ -53,7 +53,7 @@ double DensityDistribution::pdf(std::uint32_t i, double t) const {
   return pdf;
 }
 
-void PhaseMixture::set(const CompiledScene& world, const March& m, std::uint32_t segment) {
+void PhaseMixture::set(const compile::CompiledScene& world, const March& m, std::uint32_t segment) {
   lobes_.clear();
   Rgb total;
   for (const Block& b : m.blocks) {
