@@ -1,6 +1,7 @@
 // "Did you mean": the known word nearest to a mistyped one.
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "base/diagnostics.h"
@@ -38,6 +39,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+// The text with each run of one letter as a single one: what a stuck or skipped key leaves unchanged.
+std::string without_doubles(std::string text) {
+  text.erase(std::unique(text.begin(), text.end()), text.end());
+  return text;
+}
+
 }  // namespace
 
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
@@ -45,8 +52,10 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
   const std::string wanted = lower(word);
   std::string_view best;
   constexpr std::size_t far = std::numeric_limits<std::size_t>::max();
-  // Letters that differ, then those that differ in case too: 'P' is nearer to 'PP' than 'p' is.
-  std::pair<std::size_t, std::size_t> best_distance{far, far};
+  // Letters that differ, whether more than doubled ones do ('pp' is 'p' rather than 'up'), then those that
+  // differ in case too: 'P' is nearer to 'PP' than 'p' is.
+  using Distance = std::tuple<std::size_t, bool, std::size_t>;
+  Distance best_distance{far, true, far};
   for (const std::string_view candidate : candidates) {
     if (candidate == word || candidate.size() > longest_word) continue;
     const std::string known = lower(candidate);
@@ -57,11 +66,12 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
       if (wanted.size() < shortest_beginning || !known.starts_with(wanted)) continue;
       distance = longest_word + known.size();  // a beginning: only when nothing is alike
     }
-    if (distance > best_distance.first) continue;
-    const std::pair<std::size_t, std::size_t> with_case{distance, edit_distance(word, candidate)};
-    if (with_case < best_distance) {
+    if (distance > std::get<0>(best_distance)) continue;
+    const Distance whole{distance, without_doubles(wanted) != without_doubles(known),
+                         edit_distance(word, candidate)};
+    if (whole < best_distance) {
       best = candidate;
-      best_distance = with_case;
+      best_distance = whole;
     }
   }
   return best;

@@ -117,7 +117,9 @@ Value keys(CallSite& site) {
     if (argument.name.symbol.valid() && argument.name.symbol != site.ev.names().ease) {
       site.ev.error(argument.name.span,
                     fmt::format("'keys' has no parameter '{}'", site.ev.text(argument.name.symbol)),
-                    "write keys(x, [0, a], [1, b], ease: smooth)");
+                    nearest(site.ev.text(argument.name.symbol), {"ease"}).empty()
+                        ? "write keys(x, [0, a], [1, b], ease: smooth)"
+                        : "did you mean 'ease'?");
       failed = true;
     } else if (argument.name.symbol.valid()) {
       failed |= !read_ease(site, argument.value, keys.ease);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
+#include "eval/name_walk.h"
 
 namespace tyndall::eval {
 
@@ -166,7 +167,7 @@ Value evaluate_call(Evaluator& ev, const SyntaxTree& tree, const CallExpr& call,
   value = ev.evaluate(tree, call.callee, scope);
   if (value.is_error()) {
     for (const Argument& argument : tree.list_of_arguments(call.arguments))
-      ev.check_names(tree, argument.value, scope);
+      if (!is_choice(ev.names(), tree, argument)) ev.check_names(tree, argument.value, scope);
     return {};
   }
   if (const auto* function = value.get<Function>()) return ev.call(*function, tree, call, name, span, scope);

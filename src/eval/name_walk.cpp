@@ -85,9 +85,7 @@ class NameWalk {
   void children(const CallExpr& e, Span) {
     visitor_.call(tree_, e, locals);
     for (const Argument& argument : tree_.list_of_arguments(e.arguments)) {
-      const bool is_word = choices_ && argument.name.symbol == choices_->ease &&
-                           std::holds_alternative<NameExpr>(tree_[argument.value].node);
-      if (!is_word) expr(argument.value);
+      if (!choices_ || !is_choice(*choices_, tree_, argument)) expr(argument.value);
     }
     continue_with(e.callee);
   }
@@ -196,6 +194,10 @@ struct FoundNames {
 };
 
 }  // namespace
+
+bool is_choice(const Names& names, const SyntaxTree& tree, const Argument& argument) {
+  return argument.name.symbol == names.ease && std::holds_alternative<NameExpr>(tree[argument.value].node);
+}
 
 std::vector<SymbolId> free_names(const SyntaxTree& tree, BlockId block) {
   std::vector<SymbolId> found;

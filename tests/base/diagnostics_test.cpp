@@ -169,5 +169,11 @@ TEST(Nearest, PrefersTheSmallerDistance) {
   EXPECT_EQ(did_you_mean("cube", {"sphere"}), "");
 }
 
+TEST(DidYouMean, PrefersTheWordWithOneKeyStuck) {
+  EXPECT_EQ(nearest("pp", {"up", "p"}), "p");
+  EXPECT_EQ(nearest("patchh", {"patchy", "patch"}), "patch");
+  EXPECT_EQ(nearest("lenght", {"length", "weight"}), "length");
+}
+
 }  // namespace
 }  // namespace tyndall
