@@ -39,7 +39,7 @@ std::optional<PlacedShape> read_closed_shape(Run& run, const Thing& in) {
   CHECK(literal);
   const syntax::ThingExpr& thing = *literal->thing;
   const std::string_view word = run.symbols.text(thing.keyword.symbol);
-  const Statement* row = run.statements.find(thing.keyword.symbol, thing.kind.symbol);
+  const Statement* row = run.statements.find(thing.keyword.symbol, {});
   if (!row || (row->run && !row->read_shape)) {
     report_no_shape(run, thing);
     return std::nullopt;

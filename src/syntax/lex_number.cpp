@@ -1,6 +1,7 @@
 // Numbers and their units.
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -31,6 +32,27 @@ constexpr UnitRow unit_table[] = {
     {"%", Unit::none, 1, 100},
 };
 
+// Digits read as a whole number, and how many of them follow the point. Up to 15 digits both the number and
+// the power of ten are exact doubles, so that their quotient is the double next to what is written (Clinger,
+// "How to Read Floating Point Numbers Accurately", PLDI 1990).
+struct Decimal {
+  static constexpr std::uint32_t max_exact_digits = 15;
+  std::uint64_t whole = 0;
+  std::uint32_t digits = 0, places = 0;
+  bool has_exponent = false;
+
+  void add(char digit) {
+    whole = whole * 10 + static_cast<std::uint64_t>(digit - '0');  // wraps where it is not used
+    ++digits;
+  }
+  bool exact() const { return digits <= max_exact_digits && !has_exponent; }
+  double value() const {
+    static constexpr std::array<double, max_exact_digits + 1> powers_of_ten{
+        1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+    return exact() ? static_cast<double>(whole) / powers_of_ten[places] : 0;
+  }
+};
+
 std::string unit_help(std::string_view suffix) {
   std::vector<std::string_view> names;
   for (const UnitRow& row : unit_table) names.push_back(row.name);
@@ -43,10 +65,12 @@ std::string unit_help(std::string_view suffix) {
 
 void Lexer::number() {
   const std::uint32_t begin = at_;
-  while (is_digit(peek())) ++at_;
+  Decimal decimal;
+  while (is_digit(peek())) decimal.add(text_[at_++]);
   if (peek() == '.' && is_digit(peek(1))) {
-    ++at_;
-    while (is_digit(peek())) ++at_;
+    const std::uint32_t fraction = ++at_;
+    while (is_digit(peek())) decimal.add(text_[at_++]);
+    decimal.places = at_ - fraction;
   } else if (peek() == '.' && peek(1) != '.' && !is_word_begin(peek(1))) {
     ++at_;
     const std::string_view digits = text_.substr(begin, at_ - begin - 1);
@@ -58,10 +82,12 @@ void Lexer::number() {
     if (is_digit(peek(1 + sign))) {
       at_ += 1 + sign;
       while (is_digit(peek())) ++at_;
+      decimal.has_exponent = true;
     }
   }
-  double value = 0;
-  const auto [end, problem] = std::from_chars(text_.data() + begin, text_.data() + at_, value);
+  double value = decimal.value();
+  std::errc problem{};
+  if (!decimal.exact()) problem = std::from_chars(text_.data() + begin, text_.data() + at_, value).ec;
   const std::uint32_t unit_begin = at_;
   if (peek() == '%')
     ++at_;

@@ -3,9 +3,48 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/check.h"
 
 namespace tyndall::syntax {
+
+namespace {
+
+// Room made at once for the tokens of a text; more grows by doubling.
+constexpr std::size_t max_tokens_reserved = std::size_t{1} << 24;
+
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+// The mark of one character, if nothing that continues it follows; `error` for characters that are none.
+constexpr TokenKind plain_mark(char c) {
+  switch (c) {
+    case '(':
+      return TokenKind::left_paren;
+    case ')':
+      return TokenKind::right_paren;
+    case '[':
+      return TokenKind::left_bracket;
+    case ']':
+      return TokenKind::right_bracket;
+    case '{':
+      return TokenKind::left_brace;
+    case '}':
+      return TokenKind::right_brace;
+    case ',':
+      return TokenKind::comma;
+    case ':':
+      return TokenKind::colon;
+    case '-':
+      return TokenKind::minus;
+    default:  // what occurs rarely, or in pairs
+      return TokenKind::error;
+  }
+}
+// Whether a character after one of those may belong to a longer mark, ours or another language's.
+constexpr bool continues_mark(char c) { return c == '=' || c == '>' || c == '-'; }
+
+}  // namespace
 
 TokenList lex(const Sources& sources, SourceId source, Diagnostics& diagnostics) {
   return Lexer(sources, source, diagnostics).run();
@@ -13,6 +52,7 @@ TokenList lex(const Sources& sources, SourceId source, Diagnostics& diagnostics)
 
 TokenList Lexer::run() {
   CHECK_LT(text_.size(), std::size_t{0xffffffff});
+  out_.tokens.reserve(std::min(text_.size() / 4 + 16, max_tokens_reserved));
   if (!not_text()) {
     if (starts_with("\xef\xbb\xbf")) at_ = 3;  // a byte order mark says UTF-8, which we know
     while (!at_end()) next_token();
@@ -27,8 +67,9 @@ TokenList Lexer::run() {
 void Lexer::next_token() {
   const char c = peek();
   if (!interpolations_.empty() && inside_interpolation(c)) return;
-  if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
-    ++at_;
+  if (is_blank(c)) {
+    do ++at_;
+    while (is_blank(peek()));
   } else if (is_word_begin(c)) {
     word();
   } else if (is_digit(c) || (c == '.' && is_digit(peek(1)))) {
@@ -105,6 +146,11 @@ void Lexer::block_comment() {
 }
 
 void Lexer::punctuation() {
+  if (const TokenKind kind = plain_mark(peek()); kind != TokenKind::error && !continues_mark(peek(1))) {
+    const std::uint32_t mark = at_++;
+    emit(kind, mark);
+    return;
+  }
   struct Mark {
     std::string_view text;
     TokenKind kind;

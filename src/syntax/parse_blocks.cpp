@@ -8,6 +8,9 @@
 
 namespace tyndall::syntax {
 
+// Room made at once for the expressions of a text; more grows by doubling.
+static constexpr std::size_t max_exprs_reserved = std::size_t{1} << 23;
+
 SyntaxTree parse(const Sources& sources, SourceId source, const TokenList& tokens, Symbols& symbols,
                  Diagnostics& diagnostics) {
   return Parser(sources, source, tokens, symbols, diagnostics).file();
@@ -23,6 +26,10 @@ Parser::Parser(const Sources& sources, SourceId source, const TokenList& tokens,
     : source_text_(sources[source].text()), tokens_(tokens), symbols_(symbols), diagnostics_(diagnostics) {
   CHECK(!tokens.tokens.empty() && tokens.tokens.back().kind == TokenKind::end_of_file);
   tree_.source = source;
+  // Plain numbers take the most: about every other token is one.
+  const std::size_t room = std::min(tokens.tokens.size() / 2 + 16, max_exprs_reserved);
+  tree_.exprs.reserve(room);
+  expr_heights_.reserve(room);
 }
 
 // file = { item }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "syntax/recursive_parser.h"
 
@@ -43,10 +44,23 @@ constexpr OperatorRow operator_table[] = {
     {TokenKind::slash, product_level, BinaryOp::divide},
 };
 
+// Where each kind of token stands in the table, from 1; 0 for what is no operator.
+constexpr auto operator_places = [] {
+  std::array<std::uint8_t, static_cast<std::size_t>(TokenKind::dot_dot_less) + 1> places{};
+  for (std::size_t i = 0; i < std::size(operator_table); ++i)
+    places[static_cast<std::size_t>(operator_table[i].token)] = static_cast<std::uint8_t>(i + 1);
+  return places;
+}();
+
 const OperatorRow* find_operator(TokenKind kind) {
-  const auto* row = std::find_if(std::begin(operator_table), std::end(operator_table),
-                                 [kind](const OperatorRow& r) { return r.token == kind; });
-  return row == std::end(operator_table) ? nullptr : row;
+  const std::uint8_t place = operator_places[static_cast<std::size_t>(kind)];
+  return place == 0 ? nullptr : &operator_table[place - 1];
+}
+
+// Marks that continue no value.
+bool ends_value(TokenKind kind) {
+  return kind == TokenKind::comma || kind == TokenKind::right_paren || kind == TokenKind::right_bracket ||
+         kind == TokenKind::right_brace;
 }
 
 }  // namespace
@@ -55,7 +69,9 @@ const OperatorRow* find_operator(TokenKind kind) {
 ExprId Parser::expression() {
   if (panic_) return error_expr();
   if (!enter()) return leave(), error_expr();
-  const ExprId result = at(TokenKind::kw_if) ? conditional() : operators(or_level);
+  // A number that nothing continues, as in long lists, is all that operators() would find.
+  const bool only_number = at(TokenKind::number) && ends_value(kind(1));
+  const ExprId result = only_number ? literal() : at(TokenKind::kw_if) ? conditional() : operators(or_level);
   leave();
   return result;
 }

@@ -69,7 +69,7 @@ ExprId Parser::not_a_value() {
 ExprId Parser::unnamed_body() {
   const std::uint32_t first = at_;
   const BlockId body = block(BlockPlace::body, "the value");
-  return add(first, ThingExpr{{}, {}, {}, body}, 1 + height(body));
+  return add(first, ThingExpr{{}, {}, body}, 1 + height(body));
 }
 
 // literal = number | color | "true" | "false"
@@ -116,29 +116,30 @@ ExprId Parser::name_or_thing() {
   ExprId file;
   if (file_follows) file = string_value();
   const BlockId body = block(BlockPlace::thing, fmt::format("'{}'", text(name)));
-  return add(first, ThingExpr{name, {}, file, body},
-             1 + std::max(height(body), file.valid() ? height(file) : 0));
+  return add(first, ThingExpr{name, file, body}, 1 + std::max(height(body), file.valid() ? height(file) : 0));
 }
 
 // tuple = "(" expression "," expression [ "," expression ] [ "," ] ")"
 ExprId Parser::tuple_or_group() {
   const std::uint32_t first = at_;
-  std::vector<ExprId> elements;
-  const bool good = comma_list(TokenKind::right_paren, [&] { elements.push_back(expression()); });
+  Pending elements(pending_);
+  const bool good = comma_list(TokenKind::right_paren, [&] { elements.add(expression()); });
   if (!good) return add(first, ErrorExpr{});
   const bool trailing_comma = tokens_.tokens[at_ - 2].kind == TokenKind::comma;
   if (elements.size() == 1 && !trailing_comma) {
-    tree_.exprs[elements[0].index].span = span_from(first);
-    return elements[0];
+    const ExprId only = elements.all()[0];
+    tree_.exprs[only.index].span = span_from(first);
+    return only;
   }
   std::uint32_t tallest = 0;
-  for (const ExprId e : elements) tallest = std::max(tallest, height(e));
+  for (const ExprId e : elements.all()) tallest = std::max(tallest, height(e));
   if (elements.size() == 2 || elements.size() == 3)
-    return add(first, TupleExpr{append(tree_.expr_list, elements)}, 1 + tallest);
+    return add(first, TupleExpr{append_exprs(elements.all())}, 1 + tallest);
   note_mistake(span_from(first),
-               elements.empty() ? "there is no value in these parentheses"
-                                : fmt::format("{} value{} in parentheses: a pair has 2, a vec 3",
-                                              elements.size(), elements.size() == 1 ? " and a comma" : "s"),
+               elements.size() == 0
+                   ? "there is no value in these parentheses"
+                   : fmt::format("{} value{} in parentheses: a pair has 2, a vec 3", elements.size(),
+                                 elements.size() == 1 ? " and a comma" : "s"),
                elements.size() > 3 ? "a list is written in square brackets" : "");
   return add(first, ErrorExpr{});
 }
@@ -173,7 +174,7 @@ ExprId Parser::angle_bracket_vector() {
 // list = "[" [ expression { "," expression } [ "," ] ] "]"
 ExprId Parser::list() {
   const std::uint32_t first = at_;
-  std::vector<ExprId> elements;
+  Pending elements(pending_);
   std::uint32_t tallest = 0;
   const bool good = comma_list(TokenKind::right_bracket, [&] {
     if (elements.size() == max_list_length) {
@@ -182,11 +183,12 @@ ExprId Parser::list() {
       while (!ends_everything() && !at(TokenKind::right_bracket)) skip_group();
       return;
     }
-    elements.push_back(expression());
-    tallest = std::max(tallest, height(elements.back()));
+    const ExprId element = expression();
+    elements.add(element);
+    tallest = std::max(tallest, height(element));
   });
   if (!good) return add(first, ErrorExpr{});
-  return add(first, ListExpr{append(tree_.expr_list, elements)}, 1 + tallest);
+  return add(first, ListExpr{append_exprs(elements.all())}, 1 + tallest);
 }
 
 // arguments = argument { "," argument } [ "," ];  argument = [ word ":" ] expression

@@ -173,7 +173,7 @@ class TreePrinter {
   }
   void expr(const ThingExpr& e) {
     put("(");
-    thing(e.keyword, e.kind, e.file, e.block);
+    thing(e.keyword, {}, e.file, e.block);
     put(")");
   }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -160,6 +161,27 @@ class Parser {
   ExprId error_expr() { return add(at_, ErrorExpr{}); }
   std::uint32_t height(ExprId e) const { return expr_heights_[e.index]; }
   std::uint32_t height(BlockId b) const { return block_heights_[b.index]; }
+  // The expressions of a list while it is read: they lie on one stack, so that short lists take no memory.
+  class Pending {
+   public:
+    explicit Pending(std::vector<ExprId>& stack) : stack_(stack), first_(stack.size()) {}
+    ~Pending() { stack_.resize(first_); }
+    Pending(const Pending&) = delete;
+    Pending& operator=(const Pending&) = delete;
+    void add(ExprId e) { stack_.push_back(e); }
+    std::size_t size() const { return stack_.size() - first_; }
+    std::span<const ExprId> all() const { return std::span(stack_).subspan(first_); }
+
+   private:
+    std::vector<ExprId>& stack_;
+    std::size_t first_;
+  };
+  ListRef append_exprs(std::span<const ExprId> list) {
+    const ListRef ref{static_cast<std::uint32_t>(tree_.expr_list.size()),
+                      static_cast<std::uint32_t>(list.size())};
+    tree_.expr_list.insert(tree_.expr_list.end(), list.begin(), list.end());
+    return ref;
+  }
   template <class T>
   static ListRef append(std::vector<T>& all, const std::vector<T>& list) {
     const ListRef ref{static_cast<std::uint32_t>(all.size()), static_cast<std::uint32_t>(list.size())};
@@ -182,6 +204,7 @@ class Parser {
   std::uint32_t depth_ = 0;
   std::uint32_t tallest_ = 0;  // height of the tallest subtree met in the innermost block so far
   std::vector<std::uint32_t> expr_heights_, block_heights_;
+  std::vector<ExprId> pending_;  // see Pending
 };
 
 template <class Element>

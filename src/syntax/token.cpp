@@ -2,7 +2,6 @@
 #include "syntax/token.h"
 
 #include <array>
-#include <unordered_map>
 
 namespace tyndall::syntax {
 
@@ -130,16 +129,30 @@ std::string_view spelling(Unit unit) {
   return {};
 }
 
+namespace {
+
+// The letters of a word of up to eight as one number.
+std::uint64_t packed(std::string_view word) {
+  std::uint64_t letters = 0;
+  for (const char c : word) letters = letters << 8 | static_cast<unsigned char>(c);
+  return letters;
+}
+
+}  // namespace
+
 TokenKind word_kind(std::string_view word) {
+  constexpr std::size_t first = static_cast<std::size_t>(TokenKind::kw_let),
+                        count = static_cast<std::size_t>(TokenKind::kw_false) - first + 1;
   static const auto reserved = [] {
-    std::unordered_map<std::string_view, TokenKind> table;
-    for (int k = static_cast<int>(TokenKind::kw_let); k <= static_cast<int>(TokenKind::kw_false); ++k)
-      table.emplace(spelling(static_cast<TokenKind>(k)), static_cast<TokenKind>(k));
+    std::array<std::uint64_t, count> table{};
+    for (std::size_t k = 0; k < count; ++k) table[k] = packed(spelling(static_cast<TokenKind>(first + k)));
     return table;
   }();
   if (word.size() > 8) return TokenKind::name;  // "material" is the longest
-  const auto found = reserved.find(word);
-  return found == reserved.end() ? TokenKind::name : found->second;
+  const std::uint64_t letters = packed(word);
+  for (std::size_t k = 0; k < count; ++k)
+    if (reserved[k] == letters) return static_cast<TokenKind>(first + k);
+  return TokenKind::name;
 }
 
 }  // namespace tyndall::syntax

@@ -91,9 +91,12 @@ struct Token {
   TokenKind kind = TokenKind::end_of_file;
   Unit unit = Unit::none;  // number
   Span span;
-  double number = 0;       // number: in base units
-  std::uint32_t text = 0;  // string…: index into TokenList::strings; color: 0xrrggbb as written (sRGB)
+  union {
+    double number = 0;   // number: in base units
+    std::uint32_t text;  // string…: index into TokenList::strings; color: 0xrrggbb as written (sRGB)
+  };
 };
+static_assert(sizeof(Token) == 24);  // long lists of numbers are many tokens
 
 struct TokenList {
   std::vector<Token> tokens;         // ends with end_of_file

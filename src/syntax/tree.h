@@ -111,10 +111,9 @@ struct RangeExpr {
 // `sphere { … }`, `gltf "jar.glb" { … }`, `{ density = 1 }` (an unnamed medium body: keyword invalid).
 struct ThingExpr {
   Name keyword;
-  Name kind;
   ExprId file;
   BlockId block;
-};  // kind, file may be invalid
+};  // file may be invalid
 
 // An argument of a call: positional (name invalid) or `name: value`.
 struct Argument {
@@ -128,6 +127,7 @@ struct Expr {
                ConditionalExpr, CallExpr, IndexExpr, MemberExpr, TupleExpr, ListExpr, RangeExpr, ThingExpr>
       node;
 };
+static_assert(sizeof(Expr) <= 48);  // long lists of numbers are many expressions
 
 // ----------------------------------------------------------------------------------------------------------
 // items

@@ -13,6 +13,10 @@ void bench_transmittance();
 // Prints docs/verification.md. False when a line fails.
 bool print_verification();
 
+// What scenes cost before the first ray, against the targets. False when one is missed; the process must
+// have one thread.
+bool bench_language();
+
 }  // namespace tyndall
 
 namespace tyndall::vm {
