@@ -8,6 +8,7 @@
 #include "compile/geometry.h"
 #include "compile/majorant_grid.h"
 #include "compile/volume_grids.h"
+#include "optics/sky.h"
 #include "vm/machine.h"
 
 namespace tyndall::compile {
@@ -31,7 +32,9 @@ optics::Light moved(const optics::Light& light, const Vec3d& offset) {
                         [&](optics::SpotLight& l) { l.position += offset, l.to += offset; },
                         [&](optics::QuadLight& l) { l.center += offset; },
                         [&](optics::DiskLight& l) { l.center += offset; }, [](optics::DistantLight&) {},
-                        [](optics::EnvironmentLight&) {}},
+                        [](optics::EnvironmentLight& l) {
+                          if (l.radiance.picture[0]) l.sky = std::make_shared<const optics::Sky>(l);
+                        }},
              out);
   return out;
 }

@@ -171,6 +171,7 @@ Value evaluate_call(Evaluator& ev, const SyntaxTree& tree, const CallExpr& call,
     return {};
   }
   if (const auto* function = value.get<Function>()) return ev.call(*function, tree, call, name, span, scope);
+  if (const auto* image = value.get<Image>()) return look_up(ev, *image, tree, call, name, span, scope);
   if (const auto* body = value.get<Body>()) return ev.instantiate(*body, tree, call, span, scope);
   return ev.error(callee.span, fmt::format("'{}' is {}, not a function", name, describe(value.type)),
                   value.width() > 0 ? "write * to multiply" : "");

@@ -50,6 +50,12 @@ Handlers vector_handler(std::string_view name);     // builtins_vector.cpp
 Handlers transform_handler(std::string_view name);  // builtins_transform.cpp
 Handlers phase_handler(std::string_view name);      // builtins_phase.cpp
 Handlers keys_handler(std::string_view name);       // builtins_keys.cpp
+Handlers image_handler(std::string_view name);      // builtins_image.cpp
+
+// The image at the place that the call's one argument, a pair, names (builtins_image.cpp).
+Value look_up(Evaluator& evaluator, const Image& image, const syntax::SyntaxTree& tree,
+              const syntax::CallExpr& call, std::string_view name, Span span,
+              const std::shared_ptr<Scope>& scope);
 
 // Calls by the shapes of vm::Shape (builtins_shapes.cpp).
 Value call_componentwise(CallSite& site);

@@ -8,6 +8,7 @@ namespace tyndall::eval {
 
 // The way out of "wanted a, found b", or empty.
 static std::string way_out(Type wanted, Type found, bool widen) {
+  if (found == Type::image) return "look it up at a pair, for instance wood(uv)";
   if (found == Type::function) return "call it, with its arguments in ( )";
   if (wanted == Type::angle && found == Type::number)
     return "give the angle a unit, for instance 40deg or 0.7rad";

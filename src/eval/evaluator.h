@@ -46,6 +46,7 @@ struct Context {
   double frame = 0;
   SourceId main_source{0};  // the file whose unused names are warned of
   Unread unread{};
+  ImageReader* images = nullptr;   // none: there are no pictures
   std::shared_ptr<Names> names{};  // made when first needed; must outlive the values of the run
 };
 

@@ -23,7 +23,7 @@ static Handlers handlers_of(const vm::Builtin& row) {
     case vm::Shape::custom:
       break;
   }
-  for (const auto find : {vector_handler, transform_handler, phase_handler, keys_handler})
+  for (const auto find : {vector_handler, transform_handler, phase_handler, keys_handler, image_handler})
     if (const Handlers handlers = find(row.name); handlers.bound || handlers.free) return handlers;
   return {};
 }

@@ -276,6 +276,10 @@ Value binary(Evaluator& ev, BinaryOp op, const Value& a, const Value& b, const O
     if (b.type == Type::transform) return Value::transform(a.as_transform() * b.as_transform());
     if (b.type == Type::vec) return transformed(ev, a.as_transform(), b, true, at.whole);
   }
+  if (op == BinaryOp::multiply && a.type == Type::image && b.type != Type::image)
+    return scaled_image(ev, a, b, at.whole);
+  if (op == BinaryOp::multiply && b.type == Type::image && a.type != Type::image)
+    return scaled_image(ev, b, a, at.whole);
   const std::optional<Type> type = arithmetic_type(op, a.type, b.type);
   if (!type) return wrong_operands(ev, op, a, b, at);
   const std::optional<Unit> unit = result_unit(ev, op, a, b, at);

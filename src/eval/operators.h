@@ -39,6 +39,9 @@ Scalar product(Evaluator& evaluator, const Scalar& a, const Scalar& b, Span span
 Scalar sum(Evaluator& evaluator, const Scalar& a, const Scalar& b, Span span);
 Scalar difference(Evaluator& evaluator, const Scalar& a, const Scalar& b, Span span);
 
+// An image times a number or colour (builtins_image.cpp).
+Value scaled_image(Evaluator& evaluator, const Value& image, const Value& factor, Span span);
+
 // Mixes of phase functions: the lobes of both, weighted 1 - w and w.
 Value mixed_phases(Evaluator& evaluator, const Value& a, const Value& b, const Scalar& weight_of_b,
                    Span span);

@@ -242,6 +242,9 @@ void append_key(std::string& key, const Value& value) {
     append_definition(key, shape->span, shape->scope.get());
   } else if (const auto* object = value.get<ObjectDefinition>()) {
     append_definition(key, object->item->name.span, object->scope.get());
+  } else if (const auto* image = value.get<Image>()) {
+    fmt::format_to(std::back_inserter(key), "{}:{}:{},", image->path.size(), image->path, image->channel);
+    append_vec(key, image->factor);
   }
 }
 

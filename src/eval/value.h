@@ -16,6 +16,7 @@
 #include "base/source.h"
 #include "base/transform.h"
 #include "base/vec.h"
+#include "eval/images.h"
 #include "syntax/tree.h"
 #include "vm/builder.h"
 
@@ -102,7 +103,7 @@ struct RangeValue {
 };
 
 using Heavy = std::variant<std::monostate, std::string, Transform, std::vector<Value>, RangeValue, Function,
-                           Body, std::vector<PhaseLobe>, ShapeLiteral, ObjectDefinition>;
+                           Body, std::vector<PhaseLobe>, ShapeLiteral, ObjectDefinition, Image>;
 
 struct Value {
   Type type = Type::error;

@@ -5,6 +5,7 @@
 // `--help`.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ struct Codec {
                         const Metadata& metadata, Format format, std::vector<unsigned char>& bytes);
   // The picture of an existing file, its samples as stored (8 bits as 0 to 1).
   ReadResult (*decode)(const std::string& path);
+  // Any picture that OpenImageIO knows, up to that many pixels, with colours as they are where there is
+  // alpha. `encoded`: whether its numbers are sRGB's.
+  ReadResult (*decode_any)(const std::string& path, std::size_t most_pixels, bool& encoded);
 };
 
 // The name under which the module exports its `const Codec`.

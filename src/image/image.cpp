@@ -62,6 +62,11 @@ float linear_from_srgb(float srgb) {
   return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
 }
 
+void make_linear(Image& image) {
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    if (image.channels[i % image.channels.size()] != "A") image.pixels[i] = linear_from_srgb(image.pixels[i]);
+}
+
 std::vector<std::uint8_t> display_bytes(const Image& image, double exposure) {
   const auto scale = static_cast<float>(std::exp2(exposure));
   std::vector<std::uint8_t> bytes(image.pixels.size());
@@ -108,12 +113,22 @@ ReadResult read(const std::string& path) {
   ReadResult result =
       loaded.codec != nullptr ? loaded.codec->decode(path) : ReadResult{.error = loaded.problem};
   if (!result.image) return {.error = fmt::format("cannot read '{}': {}", path, result.error)};
-  if (*format == Format::png) {
-    Image& image = *result.image;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-      if (image.channels[i % image.channels.size()] != "A")
-        image.pixels[i] = linear_from_srgb(image.pixels[i]);
-  }
+  if (*format == Format::png) make_linear(*result.image);
+  return result;
+}
+
+ReadResult read_any(const std::string& path, std::size_t most_pixels) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    return {.error = fmt::format("cannot read '{}': it is a directory", path)};
+  if (!std::filesystem::exists(path, ignored))
+    return {.error = fmt::format("cannot read '{}': no such file", path)};
+  const LoadedCodec& loaded = load_codec();
+  bool encoded = false;
+  ReadResult result = loaded.codec != nullptr ? loaded.codec->decode_any(path, most_pixels, encoded)
+                                              : ReadResult{.error = loaded.problem};
+  if (!result.image) return {.error = fmt::format("cannot read '{}': {}", path, result.error)};
+  if (encoded) make_linear(*result.image);
   return result;
 }
 

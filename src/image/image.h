@@ -43,5 +43,8 @@ struct ReadResult {
 };
 // Reads an EXR as it is and a PNG as the linear light of its sRGB values.
 ReadResult read(const std::string& path);
+// Reads a picture of any kind for lookups: numbers stored as whole ones (8 or 16 bits) are taken for sRGB and
+// made linear, floating-point ones are linear already, alpha is left apart from the colours.
+ReadResult read_any(const std::string& path, std::size_t most_pixels);
 
 }  // namespace tyndall::image

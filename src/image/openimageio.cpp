@@ -50,6 +50,25 @@ Metadata texts_of(const OIIO::ImageSpec& spec) {
   return metadata;
 }
 
+ReadResult decode_any(const std::string& path, std::size_t most_pixels, bool& encoded) {
+  OIIO::ImageSpec wishes;
+  wishes.attribute("oiio:UnassociatedAlpha", 1);
+  const auto input = OIIO::ImageInput::open(path, &wishes);
+  if (!input) return {.error = OIIO::geterror()};
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
+    return {.error = "it is not a flat picture"};
+  if (static_cast<std::size_t>(spec.image_pixels()) > most_pixels)
+    return {.error = fmt::format("it has {} x {} pixels, more than {} million", spec.width, spec.height,
+                                 most_pixels / 1'000'000)};
+  encoded = !spec.format.is_floating_point() && spec.get_string_attribute("oiio:ColorSpace") != "Linear";
+  Image image{spec.width, spec.height, spec.channelnames, {}};
+  image.pixels.resize(static_cast<std::size_t>(spec.image_pixels()) * image.channels.size());
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()))
+    return {.error = input->geterror()};
+  return {.image = std::move(image)};
+}
+
 ReadResult decode(const std::string& path) {
   const auto input = OIIO::ImageInput::open(path);
   if (!input) return {.error = OIIO::geterror()};
@@ -64,4 +83,5 @@ ReadResult decode(const std::string& path) {
 }  // namespace
 }  // namespace tyndall::image
 
-extern "C" const tyndall::image::Codec tyndall_codec{tyndall::image::encode, tyndall::image::decode};
+extern "C" const tyndall::image::Codec tyndall_codec{tyndall::image::encode, tyndall::image::decode,
+                                                     tyndall::image::decode_any};

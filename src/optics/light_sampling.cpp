@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "base/numerics.h"
 #include "base/overloaded.h"
+#include "optics/sky.h"
 
 namespace tyndall::optics {
 
@@ -100,8 +101,14 @@ std::optional<LightSample> sample(const DistantLight& light, const Vec3d&, const
                      disc_radiance(light) * static_cast<float>(solid_angle), 1 / solid_angle};
 }
 
-std::optional<LightSample> sample(const EnvironmentLight&, const Vec3d&, const Vec3d&, float, float) {
-  return std::nullopt;
+std::optional<LightSample> sample(const EnvironmentLight& light, const Vec3d&, const Vec3d&, float u0,
+                                  float u1) {
+  if (!light.sky || !(light.sky->total() > 0)) return std::nullopt;
+  const Sky::Drawn drawn = light.sky->sample(u0, u1);
+  if (!(drawn.pdf_solid_angle > 0)) return std::nullopt;
+  return LightSample{drawn.direction, infinity,
+                     sky_radiance(light, drawn.direction) * static_cast<float>(1 / drawn.pdf_solid_angle),
+                     drawn.pdf_solid_angle};
 }
 
 // Irradiance at the ray's nearest approach to a light of mean intensity I at y.
@@ -215,7 +222,7 @@ double pdf_light(const Light& light, const Vec3d& x, const Vec3d& direction, con
           [&](const DistantLight& l) {
             return l.angle.radians > 0 ? 1 / cone_solid_angle(disc_one_minus_cos(l)) : 0.0;
           },
-          [](const EnvironmentLight&) { return 0.0; }},
+          [&](const EnvironmentLight& l) { return l.sky ? l.sky->pdf(direction) : 0.0; }},
       light);
 }
 
@@ -229,7 +236,7 @@ Rgb emitted(const Light& light, const Vec3d& direction, const Vec3d& normal) {
 }
 
 Rgb radiance_from_infinity(const Light& light, const Vec3d& direction) {
-  return std::visit(Overloaded{[](const EnvironmentLight& l) { return l.radiance; },
+  return std::visit(Overloaded{[&](const EnvironmentLight& l) { return sky_radiance(l, direction); },
                                [&](const DistantLight& l) {
                                  if (l.angle.radians == 0) return Rgb{};
                                  const double m = length_squared(direction + normalize(l.direction)) / 2;
@@ -287,7 +294,7 @@ double importance(const Light& light, const Vec3d& origin, const Vec3d& directio
                    return nearest_irradiance(i, l.radius, l.center, origin, direction, t0, t1);
                  },
                  [&](const DistantLight& l) { return mean(*l.irradiance); },
-                 [](const EnvironmentLight&) { return 0.0; }},
+                 [](const EnvironmentLight& l) { return l.sky ? l.sky->total() : 0.0; }},
       light);
 }
 

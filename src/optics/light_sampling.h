@@ -31,7 +31,8 @@ bool pivot_on_surface(const Light& light);
 
 // Draws a direction from x to the light, through the pivot where the light is flat or a point, within the
 // cone of a sphere, over the disc of a distant light. Nothing when the light does not reach x (behind a quad,
-// inside a sphere, outside a cone). Environments are gathered where rays end and are never drawn: nothing.
+// inside a sphere, outside a cone). Environments of one colour are gathered where rays end and are never
+// drawn: nothing.
 std::optional<LightSample> sample_light(const Light& light, const Vec3d& x, const Vec3d& pivot, float u0,
                                         float u1);
 

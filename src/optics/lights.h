@@ -4,11 +4,14 @@
 // it every light is in world space and has no transform.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <variant>
 
 #include "base/fields.h"
+#include "base/plane.h"
+#include "base/transform.h"
 #include "base/vec.h"
 
 namespace tyndall::optics {
@@ -124,13 +127,28 @@ struct DistantLight {
   }
 };
 
+// One radiance for all directions, or that times a picture of them.
+struct SkyRadiance {
+  Rgb color;
+  ColorPlanes picture{};  // none: the colour alone
+  bool operator==(const SkyRadiance&) const = default;
+};
+class Sky;
+
 struct EnvironmentLight {
   static constexpr std::string_view keyword = "light environment";
-  Rgb radiance;
+  SkyRadiance radiance;
+  Angle rotation;
+  Transform world_from_sky{};        // of the groups around, without their scale; `rotation` comes before it
+  std::shared_ptr<const Sky> sky{};  // densities of the picture, made by `compile`
   template <class F>
   static void fields(F&& field) {
     field(&EnvironmentLight::radiance,
-          FieldInfo{"radiance", "from all directions [W/m²/sr]", Quantity::color, required});
+          FieldInfo{"radiance", "from all directions [W/m²/sr]: a colour, an image, or a product of the two",
+                    Quantity::color, required});
+    field(
+        &EnvironmentLight::rotation,
+        FieldInfo{"rotation", "turns an image about y, counter-clockwise seen from above", Quantity::angle});
   }
 };
 

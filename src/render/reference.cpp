@@ -9,6 +9,7 @@
 #include "base/check.h"
 #include "base/numerics.h"
 #include "base/parallel.h"
+#include "optics/sky.h"
 #include "render/reference_world.h"
 
 namespace tyndall::render {
@@ -96,11 +97,7 @@ LightSample sample(const optics::EnvironmentLight&, const Vec3d&, double, double
 class Tracker {
  public:
   Tracker(const World& world, const ReferenceSettings& settings, std::uint64_t seed)
-      : world_(world), settings_(settings), random_(seed) {
-    for (const scene::LightInstance& light : world.scene().lights)
-      if (const auto* environment = std::get_if<optics::EnvironmentLight>(&light.light))
-        background_ += Vec3d(environment->radiance);
-  }
+      : world_(world), settings_(settings), random_(seed) {}
 
   double uniform() { return uniform_(random_); }
   std::uint64_t violations() const { return violations_; }
@@ -135,7 +132,10 @@ class Tracker {
   static bool is_zero(const Vec3d& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
   // Environments for every ray; the discs of distant lights, which are sampled elsewhere, for camera rays.
   Vec3d radiance_from_infinity(const Ray& ray) const {
-    Vec3d sum = background_;
+    Vec3d sum;
+    for (const scene::LightInstance& instance : world_.scene().lights)
+      if (const auto* environment = std::get_if<optics::EnvironmentLight>(&instance.light))
+        sum += Vec3d(sky_radiance(*environment, ray.direction));
     if (!ray.camera) return sum;
     for (const scene::LightInstance& instance : world_.scene().lights) {
       const auto* distant = std::get_if<optics::DistantLight>(&instance.light);
@@ -298,7 +298,6 @@ class Tracker {
   const ReferenceSettings& settings_;
   std::mt19937_64 random_;
   std::uniform_real_distribution<double> uniform_{0.0, 1.0};
-  Vec3d background_;
   std::vector<MediumPoint> media_;
   std::uint64_t violations_ = 0;
 };

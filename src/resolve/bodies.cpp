@@ -82,6 +82,7 @@ void note_definition(Run& run, const syntax::SyntaxTree& tree, const syntax::Bod
 }
 
 void check_unused_bodies(Run& run) {
+  run.images.stand_in(true);
   for (const Bodies::Definition& definition : run.bodies.definitions) {
     if (run.bodies.compiled.contains(definition.item)) continue;
     const auto parameters = definition.tree->list_of_parameters(definition.item->parameters);

@@ -22,16 +22,6 @@ std::string canonical_name(const fs::path& path) {
   return failed ? path.lexically_normal().string() : result.string();
 }
 
-// The file: beside the one that includes it, or in an include directory; empty when it is in none.
-std::optional<fs::path> find_file(const Run& run, const std::string& including, const std::string& name) {
-  std::vector<fs::path> places = {fs::path(including).parent_path()};
-  for (const std::string& directory : run.options.include_directories) places.emplace_back(directory);
-  std::error_code failed;
-  for (const fs::path& place : places)
-    if (fs::exists(place / name, failed)) return place / name;
-  return std::nullopt;
-}
-
 // The whole file, or nothing after an error at `span`.
 std::optional<std::string> read_file(Run& run, const fs::path& path, Span span) {
   std::error_code failed;
@@ -64,6 +54,15 @@ const syntax::SyntaxTree* tree_of(Run& run, const fs::path& path, const std::str
 }
 
 }  // namespace
+
+std::optional<fs::path> find_file(const Run& run, const std::string& including, const std::string& name) {
+  std::vector<fs::path> places = {fs::path(including).parent_path()};
+  for (const std::string& directory : run.options.include_directories) places.emplace_back(directory);
+  std::error_code failed;
+  for (const fs::path& place : places)
+    if (fs::exists(place / name, failed)) return place / name;
+  return std::nullopt;
+}
 
 std::string main_file_key(const Run& run) { return canonical_name(run.sources[run.main->source].name()); }
 

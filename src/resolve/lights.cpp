@@ -61,7 +61,14 @@ bool to_world(optics::DistantLight& light, const Transform& world_from_local) {
   return true;
 }
 
-bool to_world(optics::EnvironmentLight&, const Transform&) { return true; }
+bool to_world(optics::EnvironmentLight& light, const Transform& world_from_local) {
+  if (!light.radiance.picture[0]) return true;
+  const std::optional<double> scale = similarity_scale(world_from_local);
+  if (!scale) return false;
+  const Transform& t = world_from_local;
+  light.world_from_sky = Transform{t.x / *scale, t.y / *scale, t.z / *scale, {}} * light.world_from_sky;
+  return true;
+}
 
 void add_light(Run& run, ObjectLight light, const Transform& world_from_light) {
   if (run.building) {
@@ -73,14 +80,13 @@ void add_light(Run& run, ObjectLight light, const Transform& world_from_light) {
   if (!std::visit([&](auto& l) { return to_world(l, world_from_light); }, light.light))
     return run.diagnostics.error(light.definition,
                                  fmt::format("a '{}' cannot be stretched or sheared", light.statement),
-                                 "use one scale for all axes in the transforms around it, or a `light quad`");
+                                 "use one scale for all axes in the transforms around it");
   run.scene.lights.push_back({light.light, light.definition});
 }
 
 template <class Light>
 void run_light(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
   Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
-  if constexpr (std::is_same_v<Light, optics::EnvironmentLight>) reader.not_yet({"rotation"});
   Light light = reader.read_valid<Light>();
   const auto placement = reader.read<Placement>();
   reader.finish();

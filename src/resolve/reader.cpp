@@ -261,20 +261,34 @@ void Reader::read_value(const FieldInfo& info, const Given& given, Vec3d& to) {
   if (!value.is_error()) to = value.as_vec();
 }
 
-void Reader::read_value(const FieldInfo& info, const Given& given, Rgb& to) {
-  const eval::Value value = evaluator_.evaluate(*site_.tree, given.item->value, *site_.scope);
-  const Span span = value_span(given);
+// The number or colour that a value is.
+void Reader::to_color(const FieldInfo& info, const eval::Value& value, Span span,
+                      std::string_view wanted_type, Rgb& to) {
   if (value.is_error()) {
     ok_ = false;
   } else if (value.type != eval::Type::number && value.type != eval::Type::vec) {
-    error(span,
-          fmt::format("'{}' wants a number or a colour, found {}", info.name, eval::describe(value.type)),
+    error(span, fmt::format("'{}' wants {}, found {}", info.name, wanted_type, eval::describe(value.type)),
           "a number is that much in each of red, green and blue");
   } else if (!fits(info.quantity, value.unit)) {
     error_unit(info, value, span);
   } else {
     to = value.type == eval::Type::number ? Rgb(static_cast<float>(value.as_number())) : Rgb(value.as_vec());
   }
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, Rgb& to) {
+  to_color(info, evaluator_.evaluate(*site_.tree, given.item->value, *site_.scope), value_span(given),
+           "a number or a colour", to);
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, optics::SkyRadiance& to) {
+  const eval::Value value = evaluator_.evaluate(*site_.tree, given.item->value, *site_.scope);
+  const auto* image = value.get<eval::Image>();
+  if (!image) return to_color(info, value, value_span(given), "a number, a colour or an image", to.color);
+  const std::vector<PlanePointer> planes = evaluator_.context().images->planes(*image);
+  ok_ &= !planes.empty();
+  for (std::size_t c = 0; c < 3 && !planes.empty(); ++c) to.picture[c] = planes[planes.size() == 3 ? c : 0];
+  to.color = Rgb(image->factor);
 }
 
 void Reader::read_value(const FieldInfo& info, const Given& given, Pair<int>& to) {

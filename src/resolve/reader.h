@@ -99,6 +99,8 @@ class Reader {
   }
   Span value_span(const Given& given) const { return (*site_.tree)[given.item->value].span; }
   eval::Value evaluate(eval::Type type, const FieldInfo& info, const Given& given);
+  void to_color(const FieldInfo& info, const eval::Value& value, Span span, std::string_view wanted_type,
+                Rgb& to);
   void error_unit(const FieldInfo& info, const eval::Value& value, Span span);
 
   void read_value(const FieldInfo& info, const Given& given, double& to);
@@ -108,6 +110,7 @@ class Reader {
   void read_value(const FieldInfo& info, const Given& given, Angle& to);
   void read_value(const FieldInfo& info, const Given& given, Vec3d& to);
   void read_value(const FieldInfo& info, const Given& given, Rgb& to);
+  void read_value(const FieldInfo& info, const Given& given, optics::SkyRadiance& to);
   void read_value(const FieldInfo& info, const Given& given, Pair<int>& to);
   void read_value(const FieldInfo& info, const Given& given, Transform& to);
   void read_value(const FieldInfo& info, const Given& given, eval::RangeValue& to);

@@ -1,6 +1,7 @@
 // What one resolve shares, and where an item stands. Internal to this layer.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,6 +13,8 @@
 #include "eval/evaluator.h"
 #include "resolve/bodies.h"
 #include "resolve/limits.h"
+
+#include "resolve/images.h"
 #include "resolve/reader.h"
 #include "resolve/resolve.h"
 #include "resolve/statements.h"
@@ -82,6 +85,7 @@ struct Run {
   const syntax::SyntaxTree* main;
   Includes includes;  // before the context: values of the run point into the trees
   std::vector<Override> overrides;
+  Images images;
   eval::Context context;
   eval::Evaluator evaluator;
   const Schemas schemas;
@@ -141,6 +145,10 @@ void run_include(Run& run, const Site& site, const syntax::IncludeItem& include)
 
 // Remembers what could not be read of a file.
 void note_unread(Run& run, const syntax::SyntaxTree& tree);
+
+// A file that another one names: beside it, or in an include directory; nothing when it is in none.
+std::optional<std::filesystem::path> find_file(const Run& run, const std::string& naming,
+                                               const std::string& name);
 
 // The name of the main file among the included ones.
 std::string main_file_key(const Run& run);

@@ -69,6 +69,12 @@ class Printer {
     else
       fmt::format_to(out(), "{}", n.value);
   }
+  void put(const optics::SkyRadiance& r) {
+    put(r.color);
+    for (const PlanePointer& plane : r.picture)
+      if (plane)
+        fmt::format_to(out(), " {} {} x {} {:016x}", plane->name, plane->width, plane->height, plane->hash);
+  }
   void put(const PhaseLobe& lobe) {
     put_text(optics::keyword(lobe.kind));
     put_text(" (");
@@ -213,7 +219,11 @@ std::string print(const Scene& scene) {
     p.line("end");
   }
   print_things(p, scene);
-  for (const LightInstance& l : scene.lights) print_variant(p, l.light);
+  for (const LightInstance& l : scene.lights) {
+    print_variant(p, l.light);
+    if (const auto* sky = std::get_if<optics::EnvironmentLight>(&l.light))
+      p.item("world_from_sky", sky->world_from_sky);
+  }
   return p.text();
 }
 

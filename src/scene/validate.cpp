@@ -256,7 +256,7 @@ Problems validate(const optics::DistantLight& l) {
 
 Problems validate(const optics::EnvironmentLight& l) {
   Problems problems;
-  want_color(problems, "radiance", l.radiance);
+  want_color(problems, "radiance", l.radiance.color);
   return problems;
 }
 

@@ -38,6 +38,14 @@ NodeId Builder::input(Input input) {
   return add(node);
 }
 
+std::uint32_t Builder::plane(const PlanePointer& plane) {
+  CHECK(plane != nullptr);
+  const auto known = std::find(planes_.begin(), planes_.end(), plane);
+  if (known != planes_.end()) return static_cast<std::uint32_t>(known - planes_.begin());
+  planes_.push_back(plane);
+  return static_cast<std::uint32_t>(planes_.size() - 1);
+}
+
 NodeId Builder::emit(Op op, std::span<const NodeId> operands, Span span, std::uint8_t count,
                      std::uint32_t immediate) {
   CHECK_EQ(operands.size(), static_cast<std::size_t>(op_info(op).operands));
@@ -59,7 +67,7 @@ NodeId Builder::emit(Op op, std::span<const NodeId> operands, Span span, std::ui
   if (all_constant) {
     std::array<float, 4> values{};
     for (std::size_t k = 0; k < operands.size(); ++k) values[k] = constant_value(operands[k]);
-    return constant(evaluate_lane(op, std::span(values.data(), operands.size()), count, immediate));
+    return constant(evaluate_lane(op, std::span(values.data(), operands.size()), count, immediate, planes_));
   }
   if (const std::optional<Simpler> found = simpler(nodes_, node)) {
     if (found->constant) return constant(*found->constant);

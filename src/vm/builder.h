@@ -26,6 +26,8 @@ class Builder {
 
   NodeId constant(float value);
   NodeId input(Input input);
+  // The immediate of `plane` operations that look up in this plane.
+  std::uint32_t plane(const PlanePointer& plane);
   // The value of `op` on the operands; `span` is kept for listings. Operand count must be the op's.
   NodeId emit(Op op, std::span<const NodeId> operands, Span span, std::uint8_t count = 0,
               std::uint32_t immediate = 0);
@@ -49,6 +51,7 @@ class Builder {
 
   bool fold_, guards_;
   std::vector<Node> nodes_;
+  std::vector<PlanePointer> planes_;
   std::unordered_multimap<std::uint64_t, NodeId> by_hash_;
 };
 

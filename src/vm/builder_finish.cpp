@@ -15,7 +15,8 @@ constexpr std::size_t limit = 65535;
 // The program written from a graph.
 class Writer {
  public:
-  Writer(const Graph& graph, Schedule schedule) : graph_(graph), schedule_(std::move(schedule)) {}
+  Writer(const Graph& graph, std::span<const PlanePointer> planes, Schedule schedule)
+      : graph_(graph), planes_(planes), schedule_(std::move(schedule)) {}
 
   std::optional<Program> write() {
     number_values();
@@ -96,22 +97,31 @@ class Writer {
     program_.lane_spans.push_back(graph_[id].span);
   }
 
-  void write(NodeId id, std::vector<Instruction>& code, std::vector<Span>& spans) const {
+  void write(NodeId id, std::vector<Instruction>& code, std::vector<Span>& spans) {
     Instruction instruction = instruction_of(id);
     instruction.destination = operand(id);
     code.push_back(instruction);
     spans.push_back(graph_[id].span);
   }
 
-  Instruction instruction_of(NodeId id) const {
+  Instruction instruction_of(NodeId id) {
     const Node& node = graph_[id];
     Instruction instruction;
     instruction.op = node.op;
     instruction.count = node.count;
-    instruction.immediate = node.immediate;
+    instruction.immediate = op_info(node.op).plane ? plane_index(node.immediate) : node.immediate;
     const auto reads = node.reads();
     for (std::size_t k = 0; k < reads.size(); ++k) instruction.operands[k] = operand(reads[k]);
     return instruction;
+  }
+
+  // The program holds the planes that it reads, in the order in which they are first read.
+  std::uint32_t plane_index(std::uint32_t in_builder) {
+    auto& planes = program_.planes;
+    const auto known = std::find(planes.begin(), planes.end(), planes_[in_builder]);
+    if (known != planes.end()) return static_cast<std::uint32_t>(known - planes.begin());
+    planes.push_back(planes_[in_builder]);
+    return static_cast<std::uint32_t>(planes.size() - 1);
   }
 
   Operand operand(NodeId id) const {
@@ -124,6 +134,7 @@ class Writer {
   }
 
   const Graph& graph_;
+  std::span<const PlanePointer> planes_;
   const Schedule schedule_;
   std::vector<std::size_t> place_, last_reader_;
   std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> free_rows_;
@@ -137,7 +148,7 @@ std::optional<Program> Builder::finish(std::span<const NodeId> outputs) const {
   for (const NodeId output : outputs) CHECK_LT(output.index, nodes_.size());
   Graph graph(nodes_, outputs);
   if (fold_) fuse(graph);
-  return Writer(graph, schedule(graph, guards_)).write();
+  return Writer(graph, planes_, schedule(graph, guards_)).write();
 }
 
 }  // namespace tyndall::vm

@@ -227,9 +227,20 @@ void add_transforms(std::vector<Builtin>& rows) {
       });
 }
 
+void add_files(std::vector<Builtin>& rows) {
+  Builtin image =
+      other("image", {{"file", "string", ""}, {"channel", "string", "\"\""}}, "image",
+            "A picture, looked up as image(uv): (0, 0) is its lower left corner, (1, 1) its upper "
+            "right one, and it repeats. Gives a colour, or a number for one named channel.",
+            "image(\"wood.exr\")");
+  image.in_bodies = false;
+  rows.push_back(std::move(image));
+}
+
 std::vector<Builtin> make_rows() {
   std::vector<Builtin> rows;
-  for (const auto add : {add_arithmetic, add_angles, add_vectors, add_fields, add_distances, add_transforms})
+  for (const auto add :
+       {add_arithmetic, add_angles, add_vectors, add_fields, add_distances, add_transforms, add_files})
     add(rows);
   std::sort(rows.begin(), rows.end(), [](const Builtin& a, const Builtin& b) { return a.name < b.name; });
   return rows;

@@ -53,6 +53,7 @@ double op_cost(Op op, std::uint8_t octaves) {
     case Op::blackbody_r:
     case Op::blackbody_g:
     case Op::blackbody_b:
+    case Op::plane:
       return 1.5;
     case Op::exp:
       return 0.4;

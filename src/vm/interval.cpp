@@ -109,14 +109,15 @@ void IntervalMachine::run(const Program& program, const BoxInputs& inputs, std::
       write_everywhere(operands[program.first_input() + k], *ends(program.inputs[k]).first,
                        *ends(program.inputs[k]).second);
 
-  if (!program.uniform_code.empty()) run_interval_code(program.uniform_code, operands, vector);
+  if (!program.uniform_code.empty())
+    run_interval_code(program.uniform_code, operands, vector, program.planes.data());
   for (std::size_t begin = 0; begin < boxes; begin += max_boxes) {
     const std::size_t used = std::min(max_boxes, boxes - begin), issued = pad(used);
     for (std::size_t k = 0; k < program.inputs.size(); ++k)
       if (!is_uniform(program.inputs[k]))
         write_boxes(operands[program.first_input() + k], ends(program.inputs[k]).first + begin,
                     ends(program.inputs[k]).second + begin, used, issued);
-    run_interval_code(program.lane_code, operands, issued);
+    run_interval_code(program.lane_code, operands, issued, program.planes.data());
     for (std::size_t k = 0; k < program.outputs.size(); ++k)
       for (std::size_t i = 0; i < used; ++i)
         outputs[k * boxes + begin + i] = read(operands[program.outputs[k]], i);
@@ -140,7 +141,8 @@ ValueBounds evaluate_bounds(Op op, std::span<const ValueBounds> operands, std::u
     write_everywhere(views[k], operands[k].lo, operands[k].hi);
     if (operands[k].may_be_nan) std::fill_n(views[k].data + 2 * widest_vector, widest_vector, 1.0f);
   }
-  run_interval_code(std::span(&instruction, 1), views, simd_lanes());
+  CHECK(!op_info(op).plane);
+  run_interval_code(std::span(&instruction, 1), views, simd_lanes(), nullptr);
   return read(views[4], 0);
 }
 

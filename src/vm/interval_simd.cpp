@@ -29,9 +29,10 @@ TYNDALL_VM_INLINE Bound<Floats> load_bound(const BoundView& view, std::size_t at
 
 template <Op op, std::size_t... k>
 TYNDALL_VM_INLINE void bound_over_boxes(const Instruction& instruction, const BoundView* operands,
-                                        std::size_t boxes, std::index_sequence<k...>) {
+                                        std::size_t boxes, const PlanePointer* planes,
+                                        std::index_sequence<k...>) {
   const FloatTag d;
-  const Options options{instruction.count, instruction.immediate};
+  const Options options{instruction.count, instruction.immediate, planes};
   const BoundView& out = operands[instruction.destination];
   for (std::size_t i = 0; i < boxes; i += hn::Lanes(d)) {
     const Bound<Floats> result =
@@ -43,11 +44,13 @@ TYNDALL_VM_INLINE void bound_over_boxes(const Instruction& instruction, const Bo
 }
 
 template <Op op>
-void bound_instruction(const Instruction& instruction, const BoundView* operands, std::size_t boxes) {
-  bound_over_boxes<op>(instruction, operands, boxes, std::make_index_sequence<BoundKernel<op>::operands>());
+void bound_instruction(const Instruction& instruction, const BoundView* operands, std::size_t boxes,
+                       const PlanePointer* planes) {
+  bound_over_boxes<op>(instruction, operands, boxes, planes,
+                       std::make_index_sequence<BoundKernel<op>::operands>());
 }
 
-using BoundFunction = void (*)(const Instruction&, const BoundView*, std::size_t);
+using BoundFunction = void (*)(const Instruction&, const BoundView*, std::size_t, const PlanePointer*);
 
 constexpr BoundFunction bound_functions[] = {
 #define X(name, operand_count) &bound_instruction<Op::name>,
@@ -55,9 +58,10 @@ constexpr BoundFunction bound_functions[] = {
 #undef X
 };
 
-void run_interval_code_simd(std::span<const Instruction> code, const BoundView* operands, std::size_t boxes) {
+void run_interval_code_simd(std::span<const Instruction> code, const BoundView* operands, std::size_t boxes,
+                            const PlanePointer* planes) {
   for (const Instruction& instruction : code)
-    bound_functions[static_cast<std::size_t>(instruction.op)](instruction, operands, boxes);
+    bound_functions[static_cast<std::size_t>(instruction.op)](instruction, operands, boxes, planes);
 }
 
 }  // namespace tyndall::vm::HWY_NAMESPACE
@@ -68,8 +72,9 @@ namespace tyndall::vm {
 
 HWY_EXPORT(run_interval_code_simd);
 
-void run_interval_code(std::span<const Instruction> code, const BoundView* operands, std::size_t boxes) {
-  HWY_DYNAMIC_DISPATCH(run_interval_code_simd)(code, operands, boxes);
+void run_interval_code(std::span<const Instruction> code, const BoundView* operands, std::size_t boxes,
+                       const PlanePointer* planes) {
+  HWY_DYNAMIC_DISPATCH(run_interval_code_simd)(code, operands, boxes, planes);
 }
 
 }  // namespace tyndall::vm

@@ -16,7 +16,8 @@ struct BoundView {
 };
 
 // Runs the instructions one after another over `boxes` boxes, a multiple of simd_lanes(). Rows must be
-// aligned to 64 bytes.
-void run_interval_code(std::span<const Instruction> code, const BoundView* operands, std::size_t boxes);
+// aligned to 64 bytes. `planes` are the program's.
+void run_interval_code(std::span<const Instruction> code, const BoundView* operands, std::size_t boxes,
+                       const PlanePointer* planes);
 
 }  // namespace tyndall::vm

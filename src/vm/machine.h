@@ -55,11 +55,13 @@ class Machine {
   Counters counters_;
 };
 
-// One operation on single numbers, in double (noise and random in float): constant folding in scene code.
+// One operation on single numbers, in double (noise and random in float): constant folding in scene code. Not
+// for planes.
 double evaluate(Op op, std::span<const double> operands, std::uint8_t count = 0, std::uint32_t immediate = 0);
 // One operation on one lane of the very kernel that lane_code uses: folding in bodies.
+// `planes` are those that `immediate` counts in.
 float evaluate_lane(Op op, std::span<const float> operands, std::uint8_t count = 0,
-                    std::uint32_t immediate = 0);
+                    std::uint32_t immediate = 0, std::span<const PlanePointer> planes = {});
 // The same program by a plain scalar interpreter, without SIMD: the oracle of the tests.
 void run_reference(const Program& program, const BatchInputs& inputs, std::size_t lanes,
                    std::span<float* const> outputs);

@@ -15,8 +15,13 @@ constexpr bool is_float_only(Op op) {
 }
 
 constexpr std::array infos = {
-#define X(name, operands) \
-  OpInfo{#name, operands, has_octaves(Op::name), has_seed(Op::name), is_float_only(Op::name)},
+#define X(name, operands)       \
+  OpInfo{#name,                 \
+         operands,              \
+         has_octaves(Op::name), \
+         has_seed(Op::name),    \
+         Op::name == Op::plane, \
+         is_float_only(Op::name)},
     TYNDALL_VM_OPS(X)
 #undef X
 };

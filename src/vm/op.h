@@ -15,8 +15,9 @@ namespace tyndall::vm {
   X(div, 2)                                                                                                  \
   X(neg, 1)                                                                                                  \
   X(fma, 3) /* a*b + c; this and the next four round after each operation */                                 \
-      X(fms, 3) /* a*b - c */ X(fnma, 3) /* c - a*b */ X(add_mul, 3) /* (a + b)*c */ X(                      \
-          sub_mul, 3) /* (a - b)*c */ X(dot2, 4)                                             /* a*b + c*d */ \
+  X(fms, 3)                                                                                                  \
+  /* a*b - c */ X(fnma, 3) /* c - a*b */ X(add_mul, 3) /* (a + b)*c */ X(sub_mul, 3) /* (a - b)*c */ X(      \
+      dot2, 4)                                                                               /* a*b + c*d */ \
       X(min, 2) X(max, 2) X(clamp, 3) X(abs, 1) X(floor, 1) X(ceil, 1) X(fract, 1) X(mod, 2) /* sign of b */ \
       X(mix, 3) X(step, 2) X(smoothstep, 3) X(sqrt, 1) X(pow, 2) X(exp, 1) X(log, 1) X(sin, 1) X(cos, 1)     \
           X(tan, 1) X(asin, 1) X(acos, 1) X(atan, 1) X(atan2, 2) X(length2, 2)                               \
@@ -30,7 +31,8 @@ namespace tyndall::vm {
       X(curl3_x, 3) X(curl3_y, 3) X(curl3_z, 3) X(curl4_x, 4) X(curl4_y, 4) X(curl4_z, 4) X(random1, 1)      \
           X(random2, 2) X(random3, 3) X(random4, 4) /* hash of the operands' bits, in [0, 1) */              \
       X(checker, 2) X(blackbody_r, 1) X(blackbody_g, 1)                                                      \
-          X(blackbody_b, 1) /* linear Rec. 709, luminance 1; kelvin */
+          X(blackbody_b, 1) /* linear Rec. 709, luminance 1; kelvin */                                       \
+      X(plane, 2)           /* bilinear lookup at (u, v) in the program's plane imm; repeats */
 
 enum class Op : std::uint8_t {
 #define X(name, operands) name,
@@ -46,6 +48,7 @@ struct OpInfo {
   int operands;
   bool octaves;     // `count` is the number of octaves
   bool seed;        // `immediate` is the seed
+  bool plane;       // `immediate` is the index of one of the program's planes
   bool float_only;  // hashes the bits of floats, or reads a table: has no form in double
 };
 const OpInfo& op_info(Op op);

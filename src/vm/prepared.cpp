@@ -22,6 +22,7 @@ Prepared::Prepared(const Program& program, Rows& rows) : functions_(step_functio
   for (std::size_t k = 0; k < fixed; ++k) operands_.push_back({fixed_.get() + k * widest_vector, false});
   for (std::size_t k = 0; k < program.constants.size(); ++k)
     std::fill_n(operands_[k].data, widest_vector, program.constants[k]);
+  planes_ = program.planes;
   std::size_t next_row = 0;
   for (std::size_t k = 0; k < program.inputs.size(); ++k) {
     LaneInput& input = inputs_.emplace_back();
@@ -48,6 +49,7 @@ void Prepared::add_steps(const std::vector<Instruction>& code, std::vector<Step>
     }
     step.seed = instruction.immediate;
     step.octaves = instruction.count;
+    step.planes = planes_.data();
   }
 }
 

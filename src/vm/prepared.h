@@ -94,6 +94,7 @@ class Prepared {
     float* data;
     bool lane;
   };
+  std::vector<PlanePointer> planes_;
   std::vector<Place> operands_;
   std::vector<Step> uniform_steps_, lane_steps_;
   std::vector<Guard> guards_;

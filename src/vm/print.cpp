@@ -24,6 +24,7 @@ std::string instruction_text(const Program& program, const Instruction& instruct
   for (int k = 0; k < info.operands; ++k)
     text += ' ' + operand_name(program, instruction.operands[static_cast<std::size_t>(k)]);
   if (info.octaves) text += fmt::format("  octaves {}", instruction.count);
+  if (info.plane) text += fmt::format("  plane {}", instruction.immediate);
   if (info.seed) text += fmt::format("  seed {}", instruction.immediate);
   return text;
 }
@@ -81,6 +82,14 @@ std::string print(const Program& program, const Sources* sources) {
     out += "inputs\n ";
     for (const Input input : program.inputs) out += fmt::format(" {}", input_name(input));
     out += '\n';
+  }
+  if (!program.planes.empty()) {
+    out += "planes\n";
+    for (std::size_t i = 0; i < program.planes.size(); ++i) {
+      const Plane& plane = *program.planes[i];
+      out +=
+          fmt::format("  {} = {}, {} x {}, {:016x}\n", i, plane.name, plane.width, plane.height, plane.hash);
+    }
   }
   print_code(out, program, "once a batch", program.uniform_code, program.uniform_spans, {}, sources);
   print_code(out, program, fmt::format("every lane, {} rows", program.row_count), program.lane_code,

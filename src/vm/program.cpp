@@ -48,6 +48,8 @@ std::uint64_t fingerprint_of(const Program& program) {
     mix(std::uint64_t{guard.first} << 32 | guard.last);
     mix(std::uint64_t{guard.condition} << 1 | guard.when);
   }
+  mix(program.planes.size());
+  for (const PlanePointer& plane : program.planes) mix(plane->hash);
   mix(program.outputs.size());
   for (const Operand output : program.outputs) mix(output);
   return hash != 0 ? hash : 1;

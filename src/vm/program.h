@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/plane.h"
 #include "base/source.h"
 #include "vm/op.h"
 
@@ -34,7 +35,7 @@ struct Instruction {
   std::uint8_t count = 0;  // octaves
   Operand destination = 0;
   std::array<Operand, 4> operands{};  // as many as op_info(op).operands
-  std::uint32_t immediate = 0;        // seed
+  std::uint32_t immediate = 0;        // seed, or index of a plane
 
   bool operator==(const Instruction&) const = default;
 };
@@ -59,6 +60,7 @@ struct Program {
   std::uint16_t row_count = 0;
   std::vector<Instruction> uniform_code, lane_code;
   std::vector<Guard> guards;                    // by first; outer ones before inner ones
+  std::vector<PlanePointer> planes;             // of images, each read by some instruction
   std::vector<Operand> outputs;                 // any operand: a constant output needs no code
   std::vector<Span> uniform_spans, lane_spans;  // the source of each instruction, for listings and reports
   // Names what the program computes: programs with the same one are the same to a machine, which lays out

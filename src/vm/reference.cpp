@@ -21,8 +21,10 @@ float lane_of(const float* operands, const HWY_NAMESPACE::Options& options) {
   return apply<op>(operands, options, std::make_index_sequence<HWY_NAMESPACE::Kernel<op>::operands>());
 }
 
-float lane(Op op, const float* operands, std::uint8_t count, std::uint32_t immediate) {
-  const HWY_NAMESPACE::Options options{count, immediate};
+float lane(Op op, const float* operands, std::uint8_t count, std::uint32_t immediate,
+           std::span<const PlanePointer> planes) {
+  if (op_info(op).plane) CHECK_LT(immediate, planes.size());
+  const HWY_NAMESPACE::Options options{count, immediate, planes.data()};
   switch (op) {
 #define X(name, n) \
   case Op::name:   \
@@ -51,7 +53,8 @@ double double_of(const double* operands, const HWY_NAMESPACE::Options& options) 
 
 double evaluate(Op op, std::span<const double> operands, std::uint8_t count, std::uint32_t immediate) {
   CHECK_EQ(operands.size(), static_cast<std::size_t>(op_info(op).operands));
-  const HWY_NAMESPACE::Options options{count, immediate};
+  CHECK(!op_info(op).plane);
+  const HWY_NAMESPACE::Options options{count, immediate, nullptr};
   switch (op) {
 #define X(name, n) \
   case Op::name:   \
@@ -62,9 +65,10 @@ double evaluate(Op op, std::span<const double> operands, std::uint8_t count, std
   check_failed(__FILE__, __LINE__, "unknown operation");
 }
 
-float evaluate_lane(Op op, std::span<const float> operands, std::uint8_t count, std::uint32_t immediate) {
+float evaluate_lane(Op op, std::span<const float> operands, std::uint8_t count, std::uint32_t immediate,
+                    std::span<const PlanePointer> planes) {
   CHECK_EQ(operands.size(), static_cast<std::size_t>(op_info(op).operands));
-  return lane(op, operands.data(), count, immediate);
+  return lane(op, operands.data(), count, immediate, planes);
 }
 
 void run_reference(const Program& program, const BatchInputs& inputs, std::size_t lanes,
@@ -78,7 +82,7 @@ void run_reference(const Program& program, const BatchInputs& inputs, std::size_
       for (int k = 0; k < op_info(instruction.op).operands; ++k)
         operands[static_cast<std::size_t>(k)] = values[instruction.operands[static_cast<std::size_t>(k)]];
       values[instruction.destination] =
-          lane(instruction.op, operands.data(), instruction.count, instruction.immediate);
+          lane(instruction.op, operands.data(), instruction.count, instruction.immediate, program.planes);
     }
   };
   for (std::size_t i = 0; i < lanes; ++i) {

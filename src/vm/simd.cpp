@@ -34,7 +34,7 @@ TYNDALL_VM_INLINE void run_over_lanes(const Step& step, std::size_t first, std::
                                       std::index_sequence<k...>) {
   const FloatTag d;
   const std::size_t width = hn::Lanes(d);
-  const Options options{step.octaves, step.seed};
+  const Options options{step.octaves, step.seed, step.planes};
   // Where each operand is read, and how far on the next vector is: 0 when all lanes read the same one.
   const float* place[] = {step.operands[k] + (step.lane_mask[k] & first)...};
   const std::size_t stride[] = {(step.lane_mask[k] & width)...};

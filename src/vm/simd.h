@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/plane.h"
 #include "vm/op.h"
 
 namespace tyndall::vm {
@@ -26,8 +27,9 @@ struct Step {
   std::array<std::uint16_t, 4> lane_mask{};
   std::uint32_t seed = 0;
   std::uint8_t octaves = 0;
+  const PlanePointer* planes = nullptr;  // of the program
 };
-static_assert(sizeof(Step) == 64);
+static_assert(sizeof(Step) == 72);
 
 // Lanes that one instruction computes at a time on this processor.
 std::size_t simd_lanes();

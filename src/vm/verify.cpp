@@ -30,6 +30,8 @@ class Verifier {
 
  private:
   void check_shape() {
+    for (const PlanePointer& plane : program_.planes)
+      if (!plane) return fail("a plane is missing");
     std::bitset<input_count> seen;
     for (const Input input : program_.inputs) {
       const auto index = static_cast<std::size_t>(input);
@@ -55,7 +57,10 @@ class Verifier {
       const int octaves = instruction.count;
       if (info.octaves ? octaves < 1 || octaves > max_octaves : octaves != 0)
         return fail("{}: {} with {} octaves", place, info.name, octaves);
-      if (!info.seed && instruction.immediate != 0) return fail("{}: {} takes no seed", place, info.name);
+      if (info.plane && instruction.immediate >= program_.planes.size())
+        return fail("{}: plane {} of {}", place, instruction.immediate, program_.planes.size());
+      if (!info.seed && !info.plane && instruction.immediate != 0)
+        return fail("{}: {} takes no seed", place, info.name);
       for (std::size_t k = 0; k < instruction.operands.size() && error_.empty(); ++k) {
         if (k < static_cast<std::size_t>(info.operands))
           check_read(place, instruction.operands[k], uniform, branch(instruction, k));

@@ -194,7 +194,7 @@ TEST(Manual, ExamplesAreGood) {
     Sources sources;
     Diagnostics diagnostics;
     syntax::Symbols symbols;
-    const SourceId source = sources.add("example.tyn", text);
+    const SourceId source = sources.add((root / "scenes/example.tyn").string(), text);
     const syntax::TokenList tokens = syntax::lex(sources, source, diagnostics);
     const syntax::SyntaxTree tree = syntax::parse(sources, source, tokens, symbols, diagnostics);
     resolve::resolve(tree, sources, symbols, {}, diagnostics);

@@ -62,7 +62,7 @@ TEST(WholeScene, HasTheNumbersOfItsText) {
   EXPECT_EQ(sphere.center, Vec3d(2, 3, 1));
   EXPECT_EQ(sphere.radius, 0.2);
   EXPECT_EQ(sphere.power, Rgb(100, 100, 100));
-  EXPECT_EQ(std::get<optics::EnvironmentLight>(s.lights[1].light).radiance, Rgb(0.05f, 0.08f, 0.12f));
+  EXPECT_EQ(std::get<optics::EnvironmentLight>(s.lights[1].light).radiance.color, Rgb(0.05f, 0.08f, 0.12f));
 }
 
 TEST(WholeScene, FollowsTheFrame) {

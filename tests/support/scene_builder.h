@@ -151,7 +151,11 @@ class SceneBuilder {
     one.angle.radians = angle_degrees * pi / 180;
     return light(one);
   }
-  SceneBuilder& environment(float radiance) { return light(optics::EnvironmentLight{Rgb(radiance)}); }
+  SceneBuilder& environment(float radiance) {
+    optics::EnvironmentLight one;
+    one.radiance.color = Rgb(radiance);
+    return light(one);
+  }
 };
 
 }  // namespace tyndall::support

@@ -15,12 +15,12 @@ TEST(Builtins, HoldEveryNameOfTheLanguage) {
         "reflect",  "noise",      "fbm",          "turbulence", "ridged",    "cells",     "curl",
         "checker",  "random",     "rotate_x",     "rotate_y",   "rotate_z",  "sd_sphere", "sd_box",
         "sd_torus", "sd_capsule", "smooth_union", "blackbody",  "luminance", "keys",      "translate",
-        "scale",    "rotate",     "look_at",      "matrix",     "direction"}) {
+        "scale",    "rotate",     "look_at",      "matrix",     "direction", "image"}) {
     const Builtin* found = find_builtin(name);
     ASSERT_NE(found, nullptr) << name;
     EXPECT_EQ(found->name, name);
   }
-  EXPECT_EQ(builtins().size(), 54u);
+  EXPECT_EQ(builtins().size(), 55u);
   EXPECT_EQ(find_builtin("pi"), nullptr);
   EXPECT_EQ(find_builtin(""), nullptr);
   EXPECT_EQ(find_builtin("zzz"), nullptr);

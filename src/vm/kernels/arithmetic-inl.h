@@ -11,13 +11,16 @@
 #include "vm/kernels/pairs-inl.h"
 #include "vm/kernels/values-inl.h"
 
+#include "base/plane.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace tyndall::vm::HWY_NAMESPACE {
 
 // What an instruction knows besides its operands.
 struct Options {
   int octaves = 0;
-  std::uint32_t seed = 0;
+  std::uint32_t seed = 0;                // or the index of a plane
+  const PlanePointer* planes = nullptr;  // of the program
 };
 
 #define TYNDALL_VM_KERNEL1(name) \

@@ -9,6 +9,7 @@
 #include "vm/kernels/blackbody-inl.h"
 #include "vm/kernels/exponential-inl.h"
 #include "vm/kernels/fields-inl.h"
+#include "vm/kernels/planes-inl.h"
 #include "vm/kernels/trigonometric-inl.h"
 #include "vm/op.h"
 

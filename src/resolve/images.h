@@ -1,0 +1,36 @@
+// The picture files of a scene: found beside the file that names them, decoded once something looks them up.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "eval/images.h"
+
+namespace tyndall::resolve {
+
+struct Run;
+
+// Pixels of the largest picture: 16384 x 8192.
+inline constexpr std::size_t max_image_pixels = std::size_t{1} << 27;
+
+class Images final : public eval::ImageReader {
+ public:
+  explicit Images(Run& run) : run_(run) {}
+
+  std::string find(const std::string& name, Span span) override;
+  std::vector<PlanePointer> planes(const eval::Image& image) override;
+
+  // While nothing will be rendered from what is evaluated (bodies that nothing uses), lookups are in
+  // stand-ins and no file is decoded.
+  void stand_in(bool on) { stand_in_ = on; }
+
+ private:
+  std::vector<PlanePointer> decoded(const eval::Image& image);
+
+  Run& run_;
+  std::map<std::pair<std::string, std::string>, std::vector<PlanePointer>> known_;  // by path and channel
+  bool stand_in_ = false;
+};
+
+}  // namespace tyndall::resolve

@@ -1,0 +1,52 @@
+// Lookups in the planes of images.
+#if defined(TYNDALL_VM_KERNELS_PLANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TYNDALL_VM_KERNELS_PLANES_INL_H_
+#undef TYNDALL_VM_KERNELS_PLANES_INL_H_
+#else
+#define TYNDALL_VM_KERNELS_PLANES_INL_H_
+#endif
+
+#include "vm/kernels/arithmetic-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tyndall::vm::HWY_NAMESPACE {
+
+// The two texels around a coordinate of a row of n that repeats, and how far it is from the first to the
+// second. Texel i has its middle at (i + 1/2) / n. NaN and infinity count as 0.
+template <class V>
+struct TexelPair {
+  V first, second, weight;
+};
+template <class V>
+TYNDALL_VM_INLINE TexelPair<V> texels_around(V coordinate, int n) {
+  const V size(static_cast<float>(n));
+  V part = coordinate - floor(coordinate);
+  part = select(part == part, part, V(0.0f));
+  const V x = part * size - V(0.5f), cell = floor(x), next = cell + V(1.0f);
+  return {select(cell < V(0.0f), size - V(1.0f), cell), select(next < size, next, V(0.0f)), x - cell};
+}
+
+// A whole number in [0, 2^23) as an integer.
+template <class V>
+TYNDALL_VM_INLINE auto index_of(V whole) {
+  return bits(whole + V(0x1p23f)) & decltype(bits(whole))(0x7fffffu);
+}
+
+TYNDALL_VM_KERNEL2(plane) {
+  const Plane& plane = *options.planes[options.seed];
+  const TexelPair<V> x = texels_around(a, plane.width), y = texels_around(b, plane.height);
+  const auto left = index_of(x.first), right = index_of(x.second);
+  const decltype(left) width(static_cast<std::uint32_t>(plane.width));
+  const auto low = index_of(y.first) * width, high = index_of(y.second) * width;
+  const float* texels = plane.texels.data();
+  const V low_left = look_up(texels, low + left), low_right = look_up(texels, low + right);
+  const V high_left = look_up(texels, high + left), high_right = look_up(texels, high + right);
+  const V below = low_left + (low_right - low_left) * x.weight;
+  const V above = high_left + (high_right - high_left) * x.weight;
+  return below + (above - below) * y.weight;
+}
+
+}  // namespace tyndall::vm::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
