@@ -7,6 +7,7 @@
 #include "base/overloaded.h"
 #include "compile/geometry.h"
 #include "compile/majorant_grid.h"
+#include "compile/solids.h"
 #include "compile/volume_grids.h"
 #include "optics/sky.h"
 #include "vm/machine.h"
@@ -92,7 +93,30 @@ std::vector<double> rough_etas(const CompiledScene& world) {
   for (std::size_t i = 0; i < world.materials.size(); ++i)
     if (world.materials[i].transmits && world.scene.materials[i].roughness)
       etas.push_back(world.materials[i].ior);
+  if (etas.empty() || !world.solids) return etas;
+  // Any two bodies may touch.
+  std::vector<double> all;
+  for (const CompiledMaterial& m : world.materials)
+    if (m.transmits) all.push_back(m.ior);
+  for (const double a : all)
+    for (const double b : all) etas.push_back(a / b);
   return etas;
+}
+
+// Bodies of glass are kept when there is something that they could overlap.
+void add_solids(CompiledScene& world) {
+  auto solids =
+      std::make_unique<const Solids>(world.scene, world.origin, world.materials, world.geometry->meshes());
+  for (std::size_t i = 0; i < world.scene.volumes.size(); ++i) {
+    const scene::Volume& v = world.scene.volumes[i];
+    if (v.priority)
+      world.volumes[i].rank = SolidRank{*v.priority, v.boundary ? std::int64_t{*v.boundary} : -1};
+  }
+  const bool cuts = std::any_of(world.volumes.begin(), world.volumes.end(),
+                                [](const CompiledVolume& v) { return v.rank && v.rank->order < 0; });
+  if (solids->count() < 2 && !(cuts && solids->count() > 0)) return;
+  world.solids = std::move(solids);
+  world.features.nested_glass = world.features.see_through = true;
 }
 
 Features features_of(const CompiledScene& world) {
@@ -141,6 +165,7 @@ bool CompiledScene::occluded(const Ray& ray, std::uint32_t target_light) const {
 }
 void CompiledScene::volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const {
   geometry->volume_intervals(ray, kind, out);
+  if (solids) solids->cut(ray.origin, ray.direction, ray.t_max, volumes, out);
 }
 
 double surface_offset(const CompiledScene& world, const Vec3d& position) {
@@ -179,10 +204,11 @@ CompiledScene compile(scene::Scene scene) {
     world.materials.push_back(compiled(m, world.scene.time));
 
   world.features = features_of(world);
-  if (world.features.layered_surfaces)
-    world.albedo_tables = std::make_unique<const optics::AlbedoTables>(rough_etas(world));
   world.geometry =
       std::make_unique<Geometry>(world.scene, world.features, world.origin, world.lights, world.volumes);
+  if (world.features.glass) add_solids(world);
+  if (world.features.layered_surfaces)
+    world.albedo_tables = std::make_unique<const optics::AlbedoTables>(rough_etas(world));
   add_grids(world);
   return world;
 }

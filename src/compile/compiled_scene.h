@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -37,6 +38,7 @@ struct SurfaceHit {
   // Images of normals along the axes of object space, for materials that set normals (Features::normals).
   std::array<Vec3d, 3> normal_axes{};
   bool sheet = false;                 // of a shape without an inside: glass is a pane
+  std::uint32_t shape = no_index;     // index of scene.shapes; no_index inside placed objects
   std::uint32_t material = no_index;  // index of scene.materials, or no_index when a light was hit
   std::uint32_t light = no_index;     // index of lights when it is a light's surface
 };
@@ -58,6 +60,7 @@ struct Features {
        environment = false, surface_emission = false;
   // Materials: beyond matte, glass among them, less than opaque, with normals of their own.
   bool layered_surfaces = false, glass = false, see_through = false, normals = false;
+  bool nested_glass = false;  // bodies of glass that may overlap, or cut volumes
 };
 
 // What the renderer asks of a material besides its program.
@@ -75,6 +78,13 @@ struct CompiledMedium {
   std::vector<bool> may_be_negative;    // per output of the full program: the parameters of phase lobes
 };
 
+// Of a body of glass: higher ones win; of equals the one that stands later in the scene.
+struct SolidRank {
+  double priority = 0;
+  std::int64_t order = -1;  // of the scene's shapes; -1: a volume without a boundary
+  auto operator<=>(const SolidRank&) const = default;
+};
+
 struct CompiledVolume {
   std::uint32_t medium = 0;
   Transform shape_from_render, render_from_shape;  // of the bounding shape
@@ -83,9 +93,11 @@ struct CompiledVolume {
   std::uint32_t grid = no_index;                   // index of grids when the medium varies in space
   scene::Shape shape;
   bool visible = true;
+  std::optional<SolidRank> rank{};  // set: it gives way to bodies of glass above it
 };
 
 class Geometry;      // Embree, behind geometry.cpp
+class Solids;        // solids.h
 class MajorantGrid;  // majorant_grid.h
 
 class CompiledScene {
@@ -102,6 +114,7 @@ class CompiledScene {
   std::vector<CompiledVolume> volumes;
   std::vector<optics::Light> lights;  // scene.lights, moved to render space
   std::unique_ptr<Geometry> geometry;
+  std::unique_ptr<const Solids> solids;              // when Features::nested_glass
   std::vector<std::unique_ptr<MajorantGrid>> grids;  // of volumes whose medium varies; see grid_walk.h
 
   // The nearest surface (opaque shape or visible area light) in (t_min, ray.t_max), if any.

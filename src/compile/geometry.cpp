@@ -38,7 +38,8 @@ Geometry::Geometry(const scene::Scene& scene, const Features& features, const Ve
                    std::span<const optics::Light> lights, std::span<const CompiledVolume> volumes)
     : meshes_(scene.meshes.begin(), scene.meshes.end()),
       world_(meshes_, features.normals),
-      volumes_(volumes) {
+      volumes_(volumes),
+      first_shape_(scene.shapes.data()) {
   if (features.glass)
     for (CompiledMesh& mesh : meshes_) mesh.find_whether_closed();
   prototypes_.reserve(scene.prototypes.size());  // groups point to earlier ones
@@ -83,10 +84,12 @@ std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) co
   hit.uv = found->uv;
   hit.normal_axes = found->normal_axes;
   hit.sheet = found->sheet;
-  if (found->light == no_index)
-    hit.material = found->material.index;
-  else
+  if (found->light != no_index) {
     hit.light = found->light;
+    return hit;
+  }
+  hit.material = found->material.index;
+  if (found->surface) hit.shape = static_cast<std::uint32_t>(found->surface - first_shape_);
   return hit;
 }
 

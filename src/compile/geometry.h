@@ -21,6 +21,7 @@ class Geometry {
 
   std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind) const;
   bool occluded(const Ray& ray, std::uint32_t target_light) const;
+  std::span<const CompiledMesh> meshes() const { return meshes_; }
   // Of a shape in its own space, meshes too; nothing when it is infinite.
   std::optional<Bounds> bounds_of(const scene::Shape& shape) const { return bounds(shape, meshes_); }
   void volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const;
@@ -32,6 +33,7 @@ class Geometry {
   Group world_;
   std::span<const CompiledVolume> volumes_;
   std::optional<BoundsTree> volume_tree_;
+  const scene::ShapeInstance* first_shape_;
 };
 
 }  // namespace tyndall::compile

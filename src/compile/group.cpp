@@ -152,7 +152,8 @@ std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) co
                  {},
                  is_sheet(s.surface->shape, meshes_),
                  s.surface->material,
-                 s.light};
+                 s.light,
+                 s.surface};
     if (keeps_axes_)
       hit.normal_axes = {to_group.normal({1, 0, 0}), to_group.normal({0, 1, 0}), to_group.normal({0, 0, 1})};
     return hit;
@@ -165,6 +166,7 @@ std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) co
   hit.shading_normal = to_group.normal(hit.shading_normal);
   if (keeps_axes_)
     for (Vec3d& axis : hit.normal_axes) axis = to_group.normal(axis);
+  hit.surface = nullptr;
   if (!hit.material.valid()) hit.material = i.instance->material;
   return hit;
 }

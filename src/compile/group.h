@@ -33,6 +33,7 @@ struct GroupHit {
   bool sheet = false;                  // of a shape without an inside
   scene::MaterialId material;          // invalid: that of the instance
   std::uint32_t light = no_index;
+  const scene::ShapeInstance* surface = nullptr;  // of the group's own; null: an instance's
 };
 
 // A ray in a group's space; the direction has any length but zero, t is the caller's.

@@ -17,6 +17,13 @@ using compile::SurfaceHit;
 // What passes less than this in all counts as opaque: a thousandth of a float's last digit.
 constexpr float least_pass = 1e-10f;
 
+// Nothing need be evaluated to know that the surface is all there: where bodies of glass overlap a boundary
+// may not be.
+bool certainly_stops(const CompiledScene& world, const SurfaceHit& hit) {
+  const compile::CompiledMaterial& material = world.materials[hit.material];
+  return material.opaque && !(world.solids && material.transmits);
+}
+
 // The rest of a ray behind a surface that was met at t of it.
 Ray behind(const CompiledScene& world, const Ray& ray, const SurfaceHit& hit) {
   const Vec3d off = hit.normal * compile::surface_offset(world, hit.position);
@@ -58,7 +65,7 @@ std::optional<SurfaceHit> trace_through(const CompiledScene& world, const Ray& r
   float passed = 1;
   for (;;) {
     auto hit = world.closest_hit(rest, kind);
-    if (!hit || hit->light != compile::no_index || world.materials[hit->material].opaque) {
+    if (!hit || hit->light != compile::no_index || certainly_stops(world, *hit)) {
       if (hit) hit->t += start;
       return hit;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/solids.h"
 #include "render/worker.h"
 
 namespace tyndall::render {
@@ -75,6 +76,21 @@ class MaterialAt {
   Worker& worker_;
 };
 
+// What the body behind a boundary of glass stands in.
+struct Outside {
+  double ior = 1;
+  bool hides = false;  // it outranks the body: there is no boundary
+};
+Outside outside_of(const compile::CompiledScene& world, const compile::SurfaceHit& hit) {
+  if (!world.solids || hit.sheet || hit.shape == compile::no_index ||
+      !world.materials[hit.material].transmits)
+    return {};
+  const auto holder = world.solids->at(hit.position, hit.shape);
+  if (!holder) return {};
+  const compile::SolidRank own{world.scene.shapes[hit.shape].priority, hit.shape};
+  return {holder->ior, own < holder->rank};
+}
+
 // The normal to shade with, on the side of the ray: bent towards it where it looks away, as smoothed ones do
 // at silhouettes.
 Vec3d facing(const Vec3d& shading, const Vec3d& geometric, bool flipped, const Vec3d& direction) {
@@ -118,6 +134,8 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
     point.reflectance = base_color;
     return point;
   }
+  const Outside outside = outside_of(world, hit);
+  if (outside.hides) point.opacity = 0;
   optics::SurfaceParameters p;
   p.base_color = base_color;
   p.metallic = at.number(material.metallic, p.metallic);
@@ -130,7 +148,7 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
     point.reflectance = base_color;
     return point;
   }
-  const double eta = hit.sheet || !from_inside ? compiled.ior : 1 / compiled.ior;
+  const double eta = from_inside && !hit.sheet ? outside.ior / compiled.ior : compiled.ior / outside.ior;
   if (!hit.sheet) point.eta = eta;
   point.model.emplace(*world.albedo_tables, p, eta, hit.sheet, point.frame.local(-direction));
   point.reflectance = point.model->albedo();
@@ -141,6 +159,7 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
 
 float evaluate_opacity(const compile::CompiledScene& world, const compile::SurfaceHit& hit, Worker& worker) {
   const scene::Material& material = world.scene.materials[hit.material];
+  if (outside_of(world, hit).hides) return 0;
   return material.opacity ? MaterialAt(world, hit, worker).number(material.opacity, 1) : 1.0f;
 }
 

@@ -67,6 +67,33 @@ void check_light_at_camera(Run& run) {
   }
 }
 
+// A ray that glass has bent cannot be aimed at a point: behind it such lights give nothing.
+void check_lights_behind_glass(Run& run) {
+  const scene::Scene& s = run.scene;
+  const auto glass = std::find_if(s.materials.begin(), s.materials.end(),
+                                  [](const scene::Material& m) { return m.transmission.has_value(); });
+  if (glass == s.materials.end()) return;
+  for (const scene::LightInstance& light : s.lights) {
+    const std::string_view help = std::visit(
+        Overloaded{[](const optics::PointLight&) -> std::string_view {
+                     return "give it a size: `light sphere { center: … radius: 2cm … }`";
+                   },
+                   [](const optics::SpotLight&) -> std::string_view {
+                     return "give it a size: `light disk { center: … normal: … radius: 2cm … }`";
+                   },
+                   [](const optics::DistantLight& l) -> std::string_view {
+                     return l.angle.radians == 0 ? "give it a disc: `angle: 0.53deg` is the sun's" : "";
+                   },
+                   [](const auto&) -> std::string_view { return ""; }},
+        light.light);
+    if (help.empty()) continue;
+    run.diagnostics.warning(
+        light.definition,
+        fmt::format("a light without size gives no light through the glass of '{}'", glass->name),
+        std::string(help), {{glass->definition, "the glass is here"}});
+  }
+}
+
 }  // namespace
 
 void check_overrides(Run& run) {
@@ -91,6 +118,7 @@ void check_scene(Run& run) {
   if (run.diagnostics.has_errors()) return;
   warn_of_volumes_out_of_view(run);
   warn_of_lights_shut_in(run);
+  check_lights_behind_glass(run);
 }
 
 }  // namespace tyndall::resolve

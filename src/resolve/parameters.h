@@ -82,12 +82,14 @@ struct ShapePlacement {
   Transform transform;
   Thing material{eval::Type::material};
   bool visible = true;
+  double priority = 0;
   template <class F>
   static void fields(F&& field) {
     using P = ShapePlacement;
     field(&P::transform, FieldInfo{"transform", "moves it"});
     field(&P::material, FieldInfo{"material", "its surface; default: grey 0.8"});
     field(&P::visible, FieldInfo{"visible", "whether the camera sees it"});
+    field(&P::priority, FieldInfo{"priority", "where bodies of glass overlap the highest one is there"});
   }
 };
 
@@ -104,6 +106,8 @@ struct VolumeParameters {
   static constexpr std::string_view keyword = "volume";
   Thing in{eval::Type::shape}, medium{eval::Type::medium};
   std::optional<double> step;
+  Thing material{eval::Type::material};
+  std::optional<double> priority;
   Transform transform;
   bool visible = true;
   template <class F>
@@ -112,6 +116,11 @@ struct VolumeParameters {
     field(&P::in, FieldInfo{"in", "the closed shape that it fills", Quantity::plain, required});
     field(&P::medium, FieldInfo{"medium", "what it is filled with", Quantity::plain, required});
     field(&P::step, FieldInfo{"step", "length of a march's segments inside, > 0 [m]", Quantity::length});
+    field(&P::material, FieldInfo{"material", "of its boundary, which otherwise cannot be seen"});
+    field(&P::priority,
+          FieldInfo{"priority",
+                    "it gives way to bodies of glass of a higher one; default: 0 with a material, "
+                    "without one it is there beside them"});
     field(&P::transform, FieldInfo{"transform", "moves it, and the p of its medium"});
     field(&P::visible, FieldInfo{"visible", "whether the camera sees it"});
   }

@@ -102,13 +102,12 @@ void run_shape(Run& run, const Site& site, const syntax::ThingItem& thing, const
     else
       material = default_material(run);
   }
-  run.shapes().push_back(
-      {shape, *world_from_object, material, site.visible && placement.visible, header(thing)});
+  run.shapes().push_back({shape, *world_from_object, material, site.visible && placement.visible,
+                          header(thing), placement.priority});
 }
 
 void run_volume(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
   Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
-  reader.not_yet({"material", "priority"});
   reader.not_yet("step", "auto");
   const auto given = reader.read<VolumeParameters>();
   reader.finish();
@@ -118,11 +117,25 @@ void run_volume(Run& run, const Site& site, const syntax::ThingItem& thing, cons
   if (given.in.given()) in = read_closed_shape(run, given.in);
   scene::MediumId medium;
   if (given.medium.given()) medium = medium_of(run, given.medium);
+  scene::MaterialId material;
+  if (given.material.given()) {
+    material = material_of(run, given.material);
+    if (!material.valid()) return;
+  }
   if (!reader.ok() || !in || !medium.valid()) return;
   const auto world_from_medium = placed(reader, site, given.transform);
   if (!world_from_medium) return;
-  run.volumes().push_back({in->shape, *world_from_medium * in->medium_from_shape, *world_from_medium, medium,
-                           given.step, site.visible && given.visible, header(thing)});
+  scene::Volume volume{in->shape,          *world_from_medium * in->medium_from_shape,
+                       *world_from_medium, medium,
+                       given.step,         site.visible && given.visible,
+                       header(thing),      given.priority};
+  if (material.valid()) {
+    if (!volume.priority) volume.priority = 0;
+    volume.boundary = static_cast<std::uint32_t>(run.shapes().size());
+    run.shapes().push_back({volume.shape, volume.world_from_shape, material, volume.visible,
+                            volume.definition, *volume.priority});
+  }
+  run.volumes().push_back(std::move(volume));
 }
 
 void run_group(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {

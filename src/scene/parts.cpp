@@ -41,6 +41,27 @@ MaterialId add_diffuse(Scene& scene, const Rgb& base_color, const Rgb& emission)
   return MaterialId(scene.materials.size() - 1);
 }
 
+MaterialId add_surface(Scene& scene, const ConstantSurface& surface) {
+  const optics::SurfaceParameters& p = surface.parameters;
+  Material m;
+  m.name = "surface";
+  const auto add = [&](float value) { return add_constant_outputs(m.program, Rgb(value))[0]; };
+  m.base_color = add_constant_outputs(m.program, p.base_color);
+  if (!p.diffuse()) {
+    m.metallic = add(p.metallic);
+    m.roughness = add(p.roughness);
+    m.specular = add(p.specular);
+    if (p.transmission > 0) m.transmission = add(p.transmission);
+    m.coat = add(p.coat);
+    m.sheen = add_constant_outputs(m.program, p.sheen);
+    m.ior = add(surface.ior);
+  }
+  if (surface.opacity < 1) m.opacity = add(surface.opacity);
+  m.output_spans.resize(m.program.outputs.size());
+  scene.materials.push_back(std::move(m));
+  return MaterialId(scene.materials.size() - 1);
+}
+
 MediumId add_constant_medium(Scene& scene, const ConstantMedium& given) {
   Medium medium;
   medium.name = "constant";

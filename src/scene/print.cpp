@@ -168,6 +168,7 @@ void print_things(Printer& p, const Things& things) {
     p.item("world_from_object", s.world_from_object);
     material(s.material);
     p.item("visible", s.visible);
+    if (s.priority != 0) p.item("priority", s.priority);
   }
   for (const Volume& v : things.volumes) {
     p.put_text("volume in ");
@@ -176,6 +177,8 @@ void print_things(Printer& p, const Things& things) {
     p.item("world_from_medium", v.world_from_medium);
     p.item("medium", v.medium.index);
     p.item("step", v.step);
+    p.item("priority", v.priority);
+    p.item("boundary", v.boundary);
     p.item("visible", v.visible);
   }
   for (const Instance& i : things.instances) {

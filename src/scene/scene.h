@@ -13,6 +13,7 @@
 #include "base/transform.h"
 #include "base/vec.h"
 #include "optics/lights.h"
+#include "optics/surface_model.h"
 #include "scene/medium.h"
 #include "vm/program.h"
 
@@ -219,7 +220,8 @@ struct ShapeInstance {
   Transform world_from_object;
   MaterialId material;  // always valid: resolve adds the default material (grey 0.8) when needed
   bool visible = true;  // to camera rays
-  Span definition;
+  Span definition{};
+  double priority = 0;  // of its inside where bodies of glass overlap
 };
 
 // `in` must be closed: a sphere, box, cylinder or mesh. The medium's p is in the space just inside the
@@ -231,7 +233,11 @@ struct Volume {
   MediumId medium;
   std::optional<double> step;  // [m] of world space
   bool visible = true;
-  Span definition;
+  Span definition{};
+  // Set: the medium gives way to bodies of glass of a higher priority.
+  std::optional<double> priority{};
+  // The shape that is its boundary, of the shapes beside it.
+  std::optional<std::uint32_t> boundary{};
 };
 
 struct LightInstance {
@@ -296,6 +302,11 @@ std::size_t open_edges(const TriangleMesh& mesh);
 
 // Ready-made parts for tests and defaults.
 MaterialId add_diffuse(Scene& scene, const Rgb& base_color, const Rgb& emission = {});
+struct ConstantSurface {
+  optics::SurfaceParameters parameters;
+  float ior = 1.5f, opacity = 1;
+};
+MaterialId add_surface(Scene& scene, const ConstantSurface& surface);
 struct ConstantMedium {
   Rgb sigma_s, sigma_t, emission;
   std::vector<PhaseLobe> phase;  // empty: isotropic when anything scatters

@@ -119,6 +119,24 @@ class SceneBuilder {
     scene.shapes.push_back(instance);
     return *this;
   }
+  SceneBuilder& surface(const scene::Shape& shape, const scene::ConstantSurface& material,
+                        double priority = 0) {
+    scene::ShapeInstance instance;
+    instance.shape = shape;
+    instance.material = add_surface(scene, material);
+    instance.priority = priority;
+    scene.shapes.push_back(instance);
+    return *this;
+  }
+  // Gives the last volume a boundary.
+  SceneBuilder& bounded_by(const scene::ConstantSurface& material, double priority = 0) {
+    scene::Volume& volume = scene.volumes.back();
+    volume.priority = priority;
+    volume.boundary = static_cast<std::uint32_t>(scene.shapes.size());
+    surface(volume.shape, material, priority);
+    scene.shapes.back().world_from_object = volume.world_from_shape;
+    return *this;
+  }
   SceneBuilder& light(const optics::Light& light) {
     scene.lights.push_back({light, {}});
     return *this;
