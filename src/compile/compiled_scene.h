@@ -89,8 +89,10 @@ struct CompiledVolume {
   std::uint32_t medium = 0;
   Transform shape_from_render, render_from_shape;  // of the bounding shape
   Transform medium_from_render;                    // render space to the medium's p
-  double step = 0;                                 // [m]
-  std::uint32_t grid = no_index;                   // index of grids when the medium varies in space
+  scene::Step step;
+  bool skips = false;             // its grid finds so much empty or uniform that looking into it pays
+  double widest_step = 0;         // of an automatic step [m]
+  std::uint32_t grid = no_index;  // index of grids when the medium varies in space
   scene::Shape shape;
   bool visible = true;
   std::optional<SolidRank> rank{};  // set: it gives way to bodies of glass above it

@@ -9,7 +9,7 @@ namespace tyndall::compile {
 
 namespace {
 
-constexpr std::int64_t side = MajorantGrid::brick_side;
+constexpr std::int32_t side = MajorantGrid::brick_side, block_side = MajorantGrid::block_side;
 
 bool same(const CellBounds& a, const CellBounds& b) {
   return a.kind == b.kind && a.majorant == b.majorant && a.minorant == b.minorant && a.spread == b.spread;
@@ -18,77 +18,102 @@ bool same(const CellBounds& a, const CellBounds& b) {
 }  // namespace
 
 GridWalk::GridWalk(const MajorantGrid& grid, const Transform& medium_from_render, const Ray& ray, double t0,
-                   double t1, BoundsScratch& scratch)
-    : grid_(grid), scratch_(scratch), t_(t0), end_(t1) {
+                   double t1, BoundsScratch& scratch, Detail detail)
+    : grid_(grid), scratch_(scratch), detail_(detail), t_(t0), end_(t1) {
   const Vec3d o = medium_from_render.point(ray.origin) - grid.domain().box.lo,
               d = medium_from_render.vector(ray.direction);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double size = grid.cell_size()[axis];
+  std::array<std::int32_t, 3> cell{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    Axis& a = axes_[i];
+    const double size = grid.cell_size()[i];
     // A box without extent along an axis is one layer of cells.
-    origin_[axis] = size > 0 ? o[axis] / size : 0.5;
-    direction_[axis] = size > 0 ? d[axis] / size : 0;
-    const double place = std::floor(origin_[axis] + direction_[axis] * t0);
-    const std::int64_t last = grid.bricks()[axis] * side - 1;
-    cell_[axis] = place > 0 ? static_cast<std::int64_t>(std::min(place, static_cast<double>(last))) : 0;
+    a.origin = size > 0 ? o[i] / size : 0.5;
+    a.speed = size > 0 ? d[i] / size : 0;
+    a.inverse = 1 / a.speed;
+    a.up = a.speed > 0;
+    a.stride = (i == 0 ? 1 : i == 1 ? side : side * side) * (a.up ? 1 : -1);
+    const std::int32_t cells = static_cast<std::int32_t>(grid.bricks()[i]) * side;
+    // The plane that bounds the grid is never crossed: what lies outside by rounding counts with the
+    // outermost cells.
+    a.last = a.speed == 0 ? -1 : a.up ? cells : 0;
+    const double place = std::floor(a.origin + a.speed * t0);
+    cell[i] = place > 0 ? static_cast<std::int32_t>(std::min(place, static_cast<double>(cells - 1))) : 0;
   }
-  if (t_ < end_) {
-    enter_brick();
-    ahead_ = step();
+  if (!(t_ < end_)) return;
+  enter(cell);
+  ahead_ = step();
+}
+
+// When the ray reaches an axis' next plane.
+void GridWalk::aim(Axis& a) const {
+  a.leave =
+      a.plane == a.last || a.speed == 0 ? infinity : (static_cast<double>(a.plane) - a.origin) * a.inverse;
+}
+
+// The block of the cell, or its whole brick: passed in one step where all of it is the same to the caller.
+void GridWalk::enter(const std::array<std::int32_t, 3>& cell) {
+  const std::array<std::int32_t, 3> at = {cell[0] / side, cell[1] / side, cell[2] / side};
+  if (!brick_ || at != brick_at_) {
+    brick_at_ = at;
+    brick_ = &grid_.brick(static_cast<std::uint32_t>(at[0]), static_cast<std::uint32_t>(at[1]),
+                          static_cast<std::uint32_t>(at[2]), scratch_);
+  }
+  inner_ = 0;
+  for (std::size_t i = 0; i < 3; ++i) inner_ += (cell[i] - at[i] * side) * std::abs(axes_[i].stride);
+  if (!brick_->cells) {
+    width_ = side;
+    one_step_ = true;
+  } else {
+    width_ = block_side;
+    const BlockKind kind = brick_->cells->block[MajorantGrid::block_of(static_cast<std::uint32_t>(inner_))];
+    one_step_ = kind == BlockKind::empty || (kind == BlockKind::varying && detail_ == Detail::kinds);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    Axis& a = axes_[i];
+    a.low = cell[i] / width_ * width_;
+    const std::int32_t inside = cell[i] - a.low;
+    a.plane = one_step_ ? (a.up ? a.low + width_ : a.low) : a.up ? cell[i] + 1 : cell[i];
+    a.left = one_step_ ? 1 : a.up ? width_ - inside : inside + 1;
+    aim(a);
   }
 }
 
-void GridWalk::enter_brick() {
-  brick_ =
-      &grid_.brick(static_cast<std::uint32_t>(cell_[0] / side), static_cast<std::uint32_t>(cell_[1] / side),
-                   static_cast<std::uint32_t>(cell_[2] / side), scratch_);
+// Into the next block along an axis; the others are where t_ says, in the block that is left.
+void GridWalk::leave(std::size_t along) {
+  std::array<std::int32_t, 3> cell{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Axis& a = axes_[i];
+    if (i == along) {
+      cell[i] = a.up ? a.low + width_ : a.low - 1;
+    } else if (!one_step_) {
+      cell[i] = a.up ? a.low + width_ - a.left : a.low + a.left - 1;
+    } else {
+      const double place = std::floor(a.origin + a.speed * t_) - a.low;
+      cell[i] = a.low + (place > 0 ? static_cast<std::int32_t>(std::min(place, width_ - 1.0)) : 0);
+    }
+  }
+  enter(cell);
 }
 
-// Where the ray leaves the slab of `count` cells from `low` along an axis; never for a ray that stays in it,
-// or that leaves the grid with it (what lies outside by rounding counts with the outermost cells).
-double GridWalk::exit(std::size_t axis, std::int64_t low, std::int64_t count) const {
-  const double d = direction_[axis];
-  if (d == 0) return infinity;
-  const std::int64_t plane = d > 0 ? low + count : low;
-  if (plane <= 0 || plane >= grid_.bricks()[axis] * side) return infinity;
-  return (static_cast<double>(plane) - origin_[axis]) / d;
-}
-
-// The cell (or the whole brick) at t_; moves on to its end.
+// The cell (or the whole block) at t_; moves on to its end.
 MajorantSegment GridWalk::step() {
-  const bool whole = !brick_->cells;
-  const std::int64_t count = whole ? side : 1;
-  const auto low = [&](std::size_t axis) { return whole ? cell_[axis] / side * side : cell_[axis]; };
-  std::size_t first = 0;
-  double leave = infinity;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (const double t = exit(axis, low(axis), count); t < leave) leave = t, first = axis;
-
-  const auto inner =
-      static_cast<std::uint32_t>((cell_[2] % side * side + cell_[1] % side) * side + cell_[0] % side);
-  MajorantSegment segment{t_, std::min(std::max(leave, t_), end_), brick_->cell(inner)};
-  t_ = segment.t1;
-  if (!(leave < end_)) {
+  const std::size_t along = axes_[0].leave <= axes_[1].leave   ? (axes_[0].leave <= axes_[2].leave ? 0 : 2)
+                            : axes_[1].leave <= axes_[2].leave ? 1
+                                                               : 2;
+  Axis& a = axes_[along];
+  MajorantSegment segment{t_, end_, brick_->cell(static_cast<std::uint32_t>(inner_))};
+  if (!(a.leave < end_)) {
     t_ = end_;
     return segment;
   }
-  const std::array<std::int64_t, 3> brick_before = {cell_[0] / side, cell_[1] / side, cell_[2] / side};
-  if (whole)  // the other axes have moved inside the brick
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (axis != first) {
-        const double place = std::floor(origin_[axis] + direction_[axis] * t_);
-        const std::int64_t from = low(axis);
-        cell_[axis] =
-            place < static_cast<double>(from)
-                ? from
-                : std::min(from + side - 1,
-                           static_cast<std::int64_t>(std::min(place, static_cast<double>(from + side))));
-      }
-  cell_[first] = direction_[first] > 0 ? low(first) + count : low(first) - 1;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (cell_[axis] / side != brick_before[axis]) {
-      enter_brick();
-      break;
-    }
+  segment.t1 = t_ = std::max(a.leave, t_);
+  if (--a.left == 0) {
+    leave(along);
+  } else {
+    inner_ += a.stride;
+    a.plane += a.up ? 1 : -1;
+    aim(a);
+  }
   return segment;
 }
 
@@ -98,7 +123,9 @@ bool GridWalk::next(MajorantSegment& out) {
   ahead_ = {};
   while (t_ < end_) {
     const MajorantSegment s = step();
-    if (s.t0 < s.t1 && !same(s.bounds, out.bounds)) {
+    const bool varying = detail_ == Detail::kinds && s.bounds.kind == CellKind::varying &&
+                         out.bounds.kind == CellKind::varying;
+    if (s.t0 < s.t1 && !varying && !same(s.bounds, out.bounds)) {
       if (out.t0 < out.t1) {
         ahead_ = s;
         return true;

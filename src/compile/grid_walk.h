@@ -24,25 +24,42 @@ struct MajorantSegment {
 
 class GridWalk {
  public:
+  // All bounds, or only what is empty, uniform and varying: then varying neighbours are one segment whose
+  // numbers mean nothing.
+  enum class Detail : bool { bounds, kinds };
+
   // Over [t0, t1) of the ray; makes what cells it meets.
   GridWalk(const MajorantGrid& grid, const Transform& medium_from_render, const Ray& ray, double t0,
-           double t1, BoundsScratch& scratch);
+           double t1, BoundsScratch& scratch, Detail detail = Detail::bounds);
 
   // The next segment, or false at the end.
   bool next(MajorantSegment& out);
 
  private:
-  void enter_brick();
-  double exit(std::size_t axis, std::int64_t low, std::int64_t count) const;
+  // Planes are numbered like the cells above them: `plane` is the next one that the ray meets, `leave` is
+  // when. The block begins at cell `low` and ends after `left` planes more.
+  struct Axis {
+    double origin, speed, inverse;  // of the ray, in cells from the grid's lowest corner
+    double leave;
+    std::int32_t plane, last, left, low, stride;  // stride: in a brick's cells
+    bool up;
+  };
+  void aim(Axis& axis) const;
+  void enter(const std::array<std::int32_t, 3>& cell);
+  void leave(std::size_t along);
   MajorantSegment step();
 
   const MajorantGrid& grid_;
   BoundsScratch& scratch_;
-  Vec3d origin_, direction_;  // in cells, from the grid's lowest corner
+  Detail detail_;
+  std::array<Axis, 3> axes_{};
   double t_, end_;
-  std::array<std::int64_t, 3> cell_{};
   const MajorantGrid::Brick* brick_ = nullptr;
-  MajorantSegment ahead_;  // the segment after the last one given; empty at the end
+  std::array<std::int32_t, 3> brick_at_{};
+  std::int32_t inner_ = 0;  // the cell in the brick
+  std::int32_t width_ = 0;  // of the block, in cells
+  bool one_step_ = false;   // the block is passed as one
+  MajorantSegment ahead_;   // the segment after the last one given; empty at the end
 };
 
 }  // namespace tyndall::compile

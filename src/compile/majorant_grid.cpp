@@ -46,6 +46,21 @@ std::array<std::uint32_t, 3> bricks_for(const Vec3d& extent, std::uint32_t most_
           static_cast<std::uint32_t>(along(extent.z, brick))};
 }
 
+std::array<BlockKind, 8> block_kinds(const std::array<CellKind, MajorantGrid::brick_cells>& kinds) {
+  std::array<bool, 8> empty{}, varying{};
+  empty.fill(true);
+  varying.fill(true);
+  for (std::uint32_t i = 0; i < MajorantGrid::brick_cells; ++i) {
+    const std::uint32_t b = MajorantGrid::block_of(i);
+    empty[b] = empty[b] && kinds[i] == CellKind::empty;
+    varying[b] = varying[b] && kinds[i] == CellKind::varying;
+  }
+  std::array<BlockKind, 8> blocks{};
+  for (std::size_t b = 0; b < 8; ++b)
+    blocks[b] = empty[b] ? BlockKind::empty : varying[b] ? BlockKind::varying : BlockKind::mixed;
+  return blocks;
+}
+
 void add_unique(std::vector<std::uint8_t>& list, const scene::RgbOutputs& outputs) {
   for (const std::uint8_t k : outputs)
     if (std::find(list.begin(), list.end(), k) == list.end()) list.push_back(k);
@@ -79,6 +94,21 @@ CellBounds MajorantGrid::at(const Vec3d& p, BoundsScratch& scratch) const {
   const Brick& b = brick(cell[0] / brick_side, cell[1] / brick_side, cell[2] / brick_side, scratch);
   return b.cell((cell[2] % brick_side * brick_side + cell[1] % brick_side) * brick_side +
                 cell[0] % brick_side);
+}
+
+double MajorantGrid::plain_share(BoundsScratch& scratch) const {
+  for (std::uint32_t z = 0; z < bricks_[2]; ++z)
+    for (std::uint32_t y = 0; y < bricks_[1]; ++y)
+      for (std::uint32_t x = 0; x < bricks_[0]; ++x) {
+        const Vec3d middle = (Vec3d{x + 0.5, y + 0.5, z + 0.5}) * cell_size_ * double{brick_side};
+        const Vec3d half = cell_size_ * (block_side * 0.5);
+        add_box(domain_.box.lo + middle - half, domain_.box.lo + middle + half, scratch);
+      }
+  const std::size_t boxes = brick_count();
+  evaluate(boxes, scratch);
+  std::size_t plain = 0;
+  for (std::size_t i = 0; i < boxes; ++i) plain += summary(i, 1, boxes, scratch).kind != CellKind::varying;
+  return static_cast<double>(plain) / static_cast<double>(boxes);
 }
 
 // Whoever is first publishes; another's copy is the same and is dropped.
@@ -206,6 +236,7 @@ std::unique_ptr<MajorantGrid::Brick> MajorantGrid::computed(const std::array<std
   evaluate(boxes, scratch);
   for (std::size_t k = 0; k < scratch.loose.size(); ++k)
     set(scratch.loose[k], summary(k * 8, 8, boxes, scratch));
+  cells->block = block_kinds(cells->kind);
   if (!std::all_of(cells->kind.begin(), cells->kind.end(), [](CellKind k) { return k == CellKind::empty; }))
     brick->cells = std::move(cells);
   else

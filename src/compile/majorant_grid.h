@@ -29,6 +29,8 @@ inline constexpr float largest_coefficient = 1e30f;
 // What is proven about a cell. Empty: extinction, scattering and emission are all exactly 0, and no value is
 // bad. Uniform: every output of the program is one value to rounding.
 enum class CellKind : std::uint8_t { empty, uniform, varying };
+// Of a block of cells: all empty, all varying, or neither.
+enum class BlockKind : std::uint8_t { empty, varying, mixed };
 
 // Bounds of extinction [1/m of world space], over all channels; `spread` is the largest difference in one
 // channel.
@@ -62,6 +64,10 @@ class MajorantGrid {
   MajorantGrid& operator=(const MajorantGrid&) = delete;
 
   static constexpr std::uint32_t brick_side = 8, brick_cells = brick_side * brick_side * brick_side;
+  static constexpr std::uint32_t block_side = 4;  // eight blocks a brick
+  static constexpr std::uint32_t block_of(std::uint32_t cell) {
+    return (cell >> 8 & 1) << 2 | (cell >> 5 & 1) << 1 | (cell >> 2 & 1);
+  }
   static constexpr std::size_t bytes_per_cell = sizeof(float) * 3 + 1;
 
   // What a brick is as a whole; its cells are there only where the whole says too little.
@@ -70,6 +76,7 @@ class MajorantGrid {
     struct Cells {
       std::array<float, brick_cells> minorant, majorant, spread;
       std::array<CellKind, brick_cells> kind;
+      std::array<BlockKind, 8> block;
     };
     std::unique_ptr<Cells> cells;
 
@@ -79,6 +86,7 @@ class MajorantGrid {
     }
   };
 
+  const scene::Medium& medium() const { return medium_; }
   const Domain& domain() const { return domain_; }
   // Bricks along each axis; cells are brick_side times as many.
   const std::array<std::uint32_t, 3>& bricks() const { return bricks_; }
@@ -91,6 +99,9 @@ class MajorantGrid {
     const Brick* known = made_[i].load(std::memory_order_acquire);
     return known ? *known : make(i, {x, y, z}, scratch);
   }
+  // The share of boxes of block_side cells, one in the middle of each brick, that are proved empty or
+  // uniform.
+  double plain_share(BoundsScratch& scratch) const;
   // The cell that holds p, which is moved into the box when it lies outside.
   CellBounds at(const Vec3d& p, BoundsScratch& scratch) const;
 

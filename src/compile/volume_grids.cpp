@@ -53,6 +53,16 @@ double pixels_across(const CompiledScene& world, const CompiledVolume& volume, c
       world.scene.camera);
 }
 
+// An automatic step is no wider than this share of the volume, however thin it is: light and shadow vary in
+// it, too.
+double widest_step(const Bounds& in_world) {
+  const Vec3d extent = in_world.hi - in_world.lo;
+  return std::max({extent.x, extent.y, extent.z}) / 16;
+}
+
+// Walking through a grid costs about as much as marching a few dozen cheap segments.
+constexpr double least_plain_share = 0.04;
+
 // Half as fine as pixels is fine enough: bounds are for steps and majorants, not for looks.
 std::uint32_t cells_for(double pixels) {
   const double along = std::clamp(pixels / 2, 8.0, 64.0);
@@ -70,9 +80,10 @@ void add_grids(CompiledScene& world) {
   const auto time = static_cast<float>(world.scene.time);
   for (std::uint32_t v = 0; v < world.volumes.size(); ++v) {
     CompiledVolume& volume = world.volumes[v];
-    if (world.media[volume.medium].homogeneous) continue;
     const std::optional<Bounds> shape = world.geometry->bounds_of(volume.shape);
-    if (!shape) continue;
+    CHECK(shape.has_value());  // volumes are closed
+    volume.widest_step = widest_step(placed_bounds(*shape, volume.render_from_shape));
+    if (world.media[volume.medium].homogeneous) continue;
     MajorantGrid::Domain domain;
     domain.box = snapped(placed_bounds(*shape, volume.medium_from_render * volume.render_from_shape));
     domain.time = {time, time};
@@ -102,6 +113,11 @@ void add_grids(CompiledScene& world) {
     domains[i].cells = std::min(domains[i].cells, most);
     world.grids.push_back(std::make_unique<MajorantGrid>(world.scene.media[media[i]], domains[i]));
   }
+  BoundsScratch scratch;
+  std::vector<bool> pays;
+  for (const auto& grid : world.grids) pays.push_back(grid->plain_share(scratch) >= least_plain_share);
+  for (CompiledVolume& volume : world.volumes)
+    if (volume.grid != no_index) volume.skips = pays[volume.grid];
 }
 
 }  // namespace tyndall::compile

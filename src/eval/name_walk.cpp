@@ -147,8 +147,14 @@ class NameWalk {
   }
   void item(const ReturnItem& i) { expr(i.value); }
   void item(const ParameterItem& i) {
-    const auto* word = std::get_if<NameExpr>(&tree_[i.value].node);
-    if (!word || !choices_ || word->symbol != choices_->automatic) expr(i.value);
+    const auto is_auto = [&](ExprId id) {
+      const auto* word = std::get_if<NameExpr>(&tree_[id].node);
+      return word && choices_ && word->symbol == choices_->automatic;
+    };
+    if (is_auto(i.value)) return;
+    const auto* call = std::get_if<CallExpr>(&tree_[i.value].node);
+    if (!call || !is_auto(call->callee)) return expr(i.value);
+    for (const Argument& argument : tree_.list_of_arguments(call->arguments)) expr(argument.value);
   }
   void item(const ThingItem& i) {
     expr(i.file);

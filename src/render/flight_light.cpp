@@ -90,7 +90,10 @@ void LightStrategies::add_flight_ray(const Aim& aim, const SobolPoint& point, do
 double LightStrategies::step_at(std::uint32_t segment) const {
   double step = infinity;
   for (const Block& b : march_->blocks)
-    if (b.holds(segment)) step = std::min(step, world_->volumes[b.volume].step);
+    if (b.holds(segment)) {
+      const compile::CompiledVolume& volume = world_->volumes[b.volume];
+      step = std::min(step, volume.step.automatic() ? volume.widest_step : volume.step.metres);
+    }
   const double dt = march_->dt[segment];
   return dt / std::clamp(std::ceil(dt / step), 1.0, double{max_segments});
 }

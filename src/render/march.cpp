@@ -12,32 +12,53 @@ namespace {
 
 using compile::CompiledScene;
 
-// Cuts the ray at every entry, exit and crossing and lays segments into the regions between, where some
-// volume is.
+// The stretches that are active between two edges next to each other, one pair after another.
+class ActiveStretches {
+ public:
+  // Keeps both; the stretches are in order of t0.
+  ActiveStretches(std::span<const Stretch> all, std::vector<std::uint32_t>& active)
+      : all_(all), active_(active) {
+    active_.clear();
+  }
+  std::span<const std::uint32_t> between(const Intervald& t) {
+    std::erase_if(active_, [&](std::uint32_t i) { return all_[i].t1 <= t.lo; });
+    for (; next_ < all_.size() && all_[next_].t0 <= t.lo; ++next_)
+      if (t.lo < all_[next_].t1) active_.push_back(next_);
+    return active_;
+  }
+
+ private:
+  std::span<const Stretch> all_;
+  std::vector<std::uint32_t>& active_;
+  std::uint32_t next_ = 0;
+};
+
+// Cuts the ray at every end of a stretch and at every crossing, and lays segments into the regions between,
+// where some volume is.
 void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
   m.regions.clear();
   m.scattering_stretches.clear();
   std::vector<double>& edges = worker.edges;
   edges.clear();
-  for (const auto& i : m.intervals) edges.insert(edges.end(), {i.t0, i.t1});
+  for (const Stretch& s : m.stretches) edges.insert(edges.end(), {s.t0, s.t1});
   if (!edges.empty())
     for (const MarchCrossing& c : m.crossings) edges.push_back(c.t);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 
   double wanted = 0;  // segments, before the bound
+  ActiveStretches stretches(m.stretches, worker.active);
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
     Region region{{edges[e], edges[e + 1]}, 0, 0, false};
+    const std::span<const std::uint32_t> active = stretches.between(region.t);
+    if (active.empty()) continue;
     double step = infinity;
-    bool active = false;
-    for (const auto& i : m.intervals) {
-      if (!(i.t0 <= region.t.lo && region.t.hi <= i.t1)) continue;
-      const compile::CompiledVolume& volume = world.volumes[i.volume];
-      active = true;
-      region.scatters |= world.scene.media[volume.medium].scatters();
-      if (!world.media[volume.medium].homogeneous) step = std::min(step, volume.step);
+    for (const std::uint32_t i : active) {
+      Stretch& s = m.stretches[i];
+      if (s.region_count++ == 0) s.first_region = static_cast<std::uint32_t>(m.regions.size());
+      region.scatters |= world.scene.media[world.volumes[s.volume].medium].scatters();
+      step = std::min(step, s.step);
     }
-    if (!active) continue;
     const double segments = std::max(1.0, std::ceil(region.t.length() / step));  // step infinite: one
     region.count = static_cast<std::uint32_t>(std::min<double>(segments, max_segments));
     wanted += segments;
@@ -55,7 +76,11 @@ void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
   for (Region& r : m.regions) {
     r.first = m.count;
     m.count += r.count;
-    if (r.scatters) m.scattering_stretches.push_back(r.t);
+    if (!r.scatters) continue;
+    if (!m.scattering_stretches.empty() && m.scattering_stretches.back().hi == r.t.lo)
+      m.scattering_stretches.back().hi = r.t.hi;
+    else
+      m.scattering_stretches.push_back(r.t);
   }
   m.t0.resize(m.count);
   m.dt.resize(m.count);
@@ -68,19 +93,18 @@ void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
   }
 }
 
-// The segments of each volume's stay.
+// The segments of each stretch.
 void lay_blocks(const CompiledScene& world, March& m) {
   m.blocks.clear();
-  for (const auto& i : m.intervals) {
+  for (const Stretch& s : m.stretches) {
+    if (s.region_count == 0) continue;
+    const Region& first = m.regions[s.first_region];
+    const Region& last = m.regions[s.first_region + s.region_count - 1];
     Block block;
-    block.volume = i.volume;
-    for (const Region& r : m.regions) {
-      if (!(i.t0 <= r.t.lo && r.t.hi <= i.t1)) continue;
-      if (block.count == 0) block.first = r.first;
-      block.count = r.first + r.count - block.first;
-    }
-    if (block.count == 0) continue;
-    block.row_length = world.media[world.volumes[i.volume].medium].homogeneous ? 1 : block.count;
+    block.volume = s.volume;
+    block.first = first.first;
+    block.count = last.first + last.count - first.first;
+    block.row_length = world.media[world.volumes[s.volume].medium].homogeneous ? 1 : block.count;
     m.blocks.push_back(block);
   }
 }
@@ -243,8 +267,8 @@ void march(const CompiledScene& world, std::span<const MarchRequest> requests, W
     m.ray = request.ray;
     m.channels = world.features.chromatic ? 3 : 1;
     m.extinction_channels = world.features.chromatic_extinction ? 3 : 1;
-    m.intervals.clear();
-    if (world.features.volumes) world.volume_intervals(m.ray, request.kind, m.intervals);
+    m.stretches.clear();
+    if (world.features.volumes) find_stretches(world, m.ray, request.kind, worker, m.stretches);
     lay_segments(world, worker, m);
     lay_blocks(world, m);
   }

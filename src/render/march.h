@@ -14,6 +14,7 @@
 #include "base/vec.h"
 #include "compile/compiled_scene.h"
 #include "optics/phase.h"
+#include "render/stretches.h"
 
 namespace tyndall::render {
 
@@ -58,10 +59,11 @@ struct March {
   Rgb emitted;                                   // ∫ emission T over the whole ray
   std::vector<Region> regions;
   std::vector<Block> blocks;
-  const float* pool = nullptr;                  // the worker's: holds until its next march
-  std::vector<Intervald> scattering_stretches;  // of the regions that scatter
-  std::vector<compile::VolumeInterval> intervals;
-  std::vector<MarchCrossing> crossings;  // in order of t; given by who asks for the march
+  const float* pool = nullptr;                     // the worker's: holds until its next march
+  std::vector<Intervald> scattering_stretches;     // of the regions that scatter
+  std::vector<Stretch> stretches;                  // of a march
+  std::vector<compile::VolumeInterval> intervals;  // of a flight
+  std::vector<MarchCrossing> crossings;            // in order of t; given by who asks for the march
 
   bool scatters() const { return !scattering_stretches.empty(); }
   Rgb end_transmittance() const { return rgb(transmittance, extinction_channels, count); }

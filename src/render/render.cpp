@@ -74,7 +74,10 @@ class Render {
         film_(world.scene.settings.width, world.scene.settings.height, settings_.groups, options.aovs),
         tiles_(tiles_of(options.crop.value_or(RenderOptions::Crop{0, 0, film_.width(), film_.height()}))),
         most_samples_(most_samples(world, options)) {
-    for (int i = 0; i < worker_count(options.threads); ++i) workers_.push_back(std::make_unique<Worker>());
+    for (int i = 0; i < worker_count(options.threads); ++i) {
+      workers_.push_back(std::make_unique<Worker>());
+      workers_.back()->skips_empty = options.skip_empty;
+    }
     for (const Tile& tile : tiles_) {
       CHECK_LE(0, tile.x0);
       CHECK_LE(0, tile.y0);
@@ -250,6 +253,7 @@ RenderResult render(const CompiledScene& world, const RenderOptions& options, co
 Replay replay(const CompiledScene& world, const RenderOptions& options, int x, int y, std::uint64_t sample) {
   const CameraRays camera(world);
   Worker worker;
+  worker.skips_empty = options.skip_empty;
   Replay out;
   const CameraSample camera_sample{x, y, sample};
   PathOutputs outputs{std::span(&out.radiance, 1)};

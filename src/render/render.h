@@ -33,7 +33,8 @@ constexpr bool by_ratio(Transmittance method) {
 }
 
 struct RenderOptions {
-  int threads = 0;  // 0: all
+  int threads = 0;         // 0: all
+  bool skip_empty = true;  // leave out what is proven to be empty; false to measure what that saves
   Method method = Method::decoupled;
   Distance distance = Distance::product;  // of the decoupled method; of tracking as far as it has them
   Transmittance transmittance = Transmittance::march;

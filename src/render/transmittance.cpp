@@ -59,25 +59,30 @@ std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& worl
 // Closed forms at once; the rest is kept for the march.
 void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32_t ray, Transmittance method,
                                 Worker& worker) {
-  world.volume_intervals(rays_[ray].ray, compile::RayKind::shadow, intervals_);
-  for (const compile::VolumeInterval& i : intervals_) {
-    const compile::CompiledVolume& volume = world.volumes[i.volume];
+  if (by_ratio(method))  // walks through the grids by itself
+    whole_stays(world, rays_[ray].ray, compile::RayKind::shadow, worker, stretches_);
+  else
+    find_stretches(world, rays_[ray].ray, compile::RayKind::shadow, worker, stretches_);
+  std::uint32_t laid = 0;  // segments of each march
+  for (const Stretch& s : stretches_) {
+    const compile::CompiledVolume& volume = world.volumes[s.volume];
     const compile::CompiledMedium& medium = world.media[volume.medium];
-    const double length = i.t1 - i.t0;
+    const double length = s.t1 - s.t0;
     if (medium.constant_sigma_t) {
       closed_[ray] += Vec3d(*medium.constant_sigma_t) * length;
       continue;
     }
     if (by_ratio(method) && volume.grid != compile::no_index) {
-      ratio_.add(ray, i, volume.medium);
+      ratio_.add(ray, {s.t0, s.t1, s.volume}, volume.medium);
       continue;
     }
     if (estimates_[ray].count == 0) lay_estimates(ray, method);
     const Estimates& e = estimates_[ray];
-    std::uint32_t n = medium.homogeneous ? 1 : segments_for(length, volume.step, worker);
+    std::uint32_t n = segments_for(length, s.step, worker);
     if (method == Transmittance::jackknife) n = (n + 1) / 2;  // of two marches: as many in all
     for (std::uint32_t march = e.first; march < e.first + e.count; ++march)
-      stays_.push_back({volume.medium, i.volume, ray, march, n, i.t0, length / n});
+      stays_.push_back({volume.medium, s.volume, ray, march, laid, n, s.t0, length / n});
+    laid += n;
     rays_[ray].segments += n * e.count;
   }
 }
@@ -139,7 +144,8 @@ void ShadowBatch::march_stays(const compile::CompiledScene& world, Worker& worke
     for (auto s = first; s != last; lane += s->count, ++s) {
       const std::uint32_t seed = march_seed(rays_[s->ray].seed, s->march - estimates_[s->ray].first);
       lanes.set(world.volumes[s->volume], rays_[s->ray].ray, lane, s->count, [&](std::size_t k) {
-        return s->t0 + (static_cast<double>(k) + jitter(seed, static_cast<std::uint32_t>(k))) * s->dt;
+        const auto i = s->first + static_cast<std::uint32_t>(k);
+        return s->t0 + (static_cast<double>(k) + jitter(seed, i)) * s->dt;
       });
     }
     values_.resize(count * program.outputs.size());

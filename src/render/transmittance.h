@@ -10,6 +10,7 @@
 #include "render/aov.h"
 #include "render/ratio_tracking.h"
 #include "render/render.h"
+#include "render/stretches.h"
 
 namespace tyndall::render {
 
@@ -48,9 +49,9 @@ class ShadowBatch {
   struct Estimates {
     std::uint32_t first = 0, count = 1;
   };
-  // One march's stay in a volume: `count` segments from t0 of length dt.
+  // One march's stay in a volume: `count` segments from t0 of length dt, its segments from `first`.
   struct Stay {
-    std::uint32_t medium, volume, ray, march, count;
+    std::uint32_t medium, volume, ray, march, first, count;
     double t0, dt;
   };
   void lay_estimates(std::uint32_t ray, Transmittance method);
@@ -65,7 +66,7 @@ class ShadowBatch {
   std::vector<Estimates> estimates_;  // per ray
   std::vector<Vec3d> closed_;         // optical depth known in closed form, per ray
   std::vector<Vec3d> depth_;          // estimated optical depth, per march
-  std::vector<compile::VolumeInterval> intervals_;
+  std::vector<Stretch> stretches_;
   std::vector<Stay> stays_;
   RatioTracking ratio_;
   std::vector<float> values_;

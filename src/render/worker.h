@@ -10,6 +10,7 @@
 
 #include "compile/majorant_grid.h"
 #include "render/camera.h"
+#include "render/certified.h"
 #include "render/direct_light.h"
 #include "render/flight.h"
 #include "render/march.h"
@@ -21,7 +22,7 @@
 namespace tyndall::render {
 
 // Shaders give no more than this; larger values are taken for infinite.
-inline constexpr float largest_value = 1e30f;
+inline constexpr float largest_value = compile::largest_coefficient;
 
 // Counts of bad values by (shader, output, kind).
 class BadValueCounts {
@@ -53,6 +54,7 @@ struct PathSlot;
 struct Worker {
   Worker();
   ~Worker();
+  bool skips_empty = true;  // leaves out what is proven to be empty
   vm::Machine machine;
   Statistics statistics;
   BadValueCounts bad_values;
@@ -74,6 +76,11 @@ struct Worker {
   std::vector<FlightRequest> flight_requests;
   compile::BoundsScratch bounds;
   std::vector<double> edges, reach;  // of the march at work
+  std::vector<compile::VolumeInterval> intervals;
+  std::vector<std::uint32_t> active;  // stretches
+  std::vector<CertifiedCell> certified_cells;
+  std::vector<CertifiedStretch> certified_stretches;
+  CertifiedScratch certified_scratch;
 };
 
 }  // namespace tyndall::render

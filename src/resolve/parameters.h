@@ -25,7 +25,7 @@ struct RenderParameters {
   static constexpr std::string_view keyword = scene::RenderSettings::keyword;
   Pair<int> resolution{scene::RenderSettings{}.width, scene::RenderSettings{}.height};
   int samples = scene::RenderSettings{}.samples;
-  double step = scene::RenderSettings{}.step;
+  scene::Step step;
   int light_samples = scene::RenderSettings{}.light_samples;
   int bounces = scene::RenderSettings{}.bounces;
   std::uint64_t seed = scene::RenderSettings{}.seed;
@@ -34,7 +34,8 @@ struct RenderParameters {
     using P = RenderParameters;
     field(&P::resolution, FieldInfo{"resolution", "the picture's (width, height) in pixels, 1 to 16384"});
     field(&P::samples, FieldInfo{"samples", "paths through each pixel, >= 1"});
-    field(&P::step, FieldInfo{"step", "length of a march's segments, > 0 [m]", Quantity::length});
+    field(&P::step,
+          FieldInfo{"step", "length of a march's segments, > 0 [m], or `auto(tolerance)`", Quantity::length});
     field(&P::light_samples, FieldInfo{"light_samples", "light points for each path segment, >= 1"});
     field(&P::bounces, FieldInfo{"bounces", "scatterings and reflections at most, >= 0"});
     field(&P::seed, FieldInfo{"seed", "of the random numbers, a whole number >= 0"});
@@ -105,7 +106,7 @@ struct Placement {
 struct VolumeParameters {
   static constexpr std::string_view keyword = "volume";
   Thing in{eval::Type::shape}, medium{eval::Type::medium};
-  std::optional<double> step;
+  std::optional<scene::Step> step;
   Thing material{eval::Type::material};
   std::optional<double> priority;
   Transform transform;
@@ -115,7 +116,8 @@ struct VolumeParameters {
     using P = VolumeParameters;
     field(&P::in, FieldInfo{"in", "the closed shape that it fills", Quantity::plain, required});
     field(&P::medium, FieldInfo{"medium", "what it is filled with", Quantity::plain, required});
-    field(&P::step, FieldInfo{"step", "length of a march's segments inside, > 0 [m]", Quantity::length});
+    field(&P::step, FieldInfo{"step", "length of a march's segments inside, > 0 [m], or `auto(tolerance)`",
+                              Quantity::length});
     field(&P::material, FieldInfo{"material", "of its boundary, which otherwise cannot be seen"});
     field(&P::priority,
           FieldInfo{"priority",

@@ -154,16 +154,6 @@ void Reader::not_yet(std::initializer_list<std::string_view> names) {
   }
 }
 
-void Reader::not_yet(std::string_view name, std::string_view word) {
-  for (Given& given : given_) {
-    if (symbols_.text(given.item->name.symbol) != name) continue;
-    const auto* value = std::get_if<syntax::NameExpr>(&(*site_.tree)[given.item->value].node);
-    if (!value || symbols_.text(value->symbol) != word) continue;
-    given.taken = true;
-    error(value_span(given), fmt::format("'{}: {}' is not available yet", name, word), "give a number");
-  }
-}
-
 void Reader::report_unknown(const Given& given, std::string_view hint) {
   // Those that are missing first, then those not given yet.
   std::vector<std::string_view> candidates, known;
@@ -340,6 +330,48 @@ void Reader::read_value(const FieldInfo& info, const Given& given, std::vector<V
 void Reader::read_value(const FieldInfo& info, const Given& given, std::vector<Pair<double>>& to) {
   for (const eval::Value& element : read_list(eval::Type::pair, info, given))
     to.push_back({element.scalars[0].value, element.scalars[1].value});
+}
+
+// A length, or the choice `auto`: alone, or with its tolerance as if it were called.
+void Reader::read_value(const FieldInfo& info, const Given& given, scene::Step& to) {
+  const syntax::SyntaxTree& tree = *site_.tree;
+  const auto is_auto = [&](syntax::ExprId id) {
+    const auto* name = std::get_if<syntax::NameExpr>(&tree[id].node);
+    return name && symbols_.text(name->symbol) == "auto";
+  };
+  const syntax::ExprId written = given.item->value;
+  if (is_auto(written)) {
+    to = scene::Step::automatic_unproven();
+    return;
+  }
+  const auto* call = std::get_if<syntax::CallExpr>(&tree[written].node);
+  if (!call || !is_auto(call->callee)) {
+    const eval::Value value = evaluate(eval::Type::number, info, given);
+    if (!value.is_error()) to = value.as_number();
+    return;
+  }
+  const auto arguments = tree.list_of_arguments(call->arguments);
+  constexpr std::string_view help =
+      "`auto(1%)`: what may be added to the light of any ray, above 0% and below 100%";
+  if (arguments.size() != 1 || arguments[0].name.span.valid())
+    return error(value_span(given), fmt::format("'{}: auto' wants one tolerance", info.name),
+                 std::string(help));
+  const syntax::ExprId argument = arguments[0].value;
+  const eval::Value value =
+      evaluator_.evaluate_as(eval::Type::number, tree, argument, *site_.scope, "tolerance");
+  if (value.is_error()) {
+    ok_ = false;
+  } else if (value.unit != syntax::Unit::none) {
+    error(tree[argument].span,
+          fmt::format("the tolerance of 'auto' is a share, found {}", unit_name(value.unit)),
+          std::string(help));
+  } else if (!(value.as_number() > 0 && value.as_number() < 1)) {
+    error(tree[argument].span,
+          fmt::format("the tolerance of 'auto' must be above 0% and below 100%, found {}%",
+                      value.as_number() * 100));
+  } else {
+    to = scene::Step::automatic_within(value.as_number());
+  }
 }
 
 void Reader::read_value(const FieldInfo& info, const Given& given, Thing& to) {

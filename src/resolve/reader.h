@@ -73,8 +73,6 @@ class Reader {
 
   // Reports an error for each name in `names` that was given, and takes it.
   void not_yet(std::initializer_list<std::string_view> names);
-  // The same for one word as the value of a parameter: `step: auto`.
-  void not_yet(std::string_view name, std::string_view word);
   // Reports what nothing took, and what is missing: a name that resembles a missing one is taken for it, and
   // reported alone. `hint` is shown when no name resembles it.
   void finish(std::string_view hint = {});
@@ -114,6 +112,7 @@ class Reader {
   void read_value(const FieldInfo& info, const Given& given, Pair<int>& to);
   void read_value(const FieldInfo& info, const Given& given, Transform& to);
   void read_value(const FieldInfo& info, const Given& given, eval::RangeValue& to);
+  void read_value(const FieldInfo& info, const Given& given, scene::Step& to);
   void read_value(const FieldInfo& info, const Given& given, Thing& to);
   void read_value(const FieldInfo& info, const Given& given, std::vector<Vec3d>& to);
   void read_value(const FieldInfo& info, const Given& given, std::vector<Pair<double>>& to);

@@ -52,7 +52,6 @@ void move(scene::SphericalCamera& camera, const Transform& world_from_local, dou
 void run_render(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
   if (!first_of_its_kind(run, site, run.render, header(thing), row.name)) return;
   Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
-  reader.not_yet("step", "auto");
   const auto given = reader.read<RenderParameters>();
   reader.finish();
   const scene::RenderSettings settings{given.resolution.x,  given.resolution.y, given.samples, given.step,

@@ -108,11 +108,10 @@ void run_shape(Run& run, const Site& site, const syntax::ThingItem& thing, const
 
 void run_volume(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
   Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
-  reader.not_yet("step", "auto");
   const auto given = reader.read<VolumeParameters>();
   reader.finish();
-  if (given.step && !(*given.step > 0))
-    reader.error(reader.place("step"), fmt::format("'step' must be above 0, found {}", *given.step));
+  if (given.step && !given.step->automatic() && !(given.step->metres > 0))
+    reader.error(reader.place("step"), fmt::format("'step' must be above 0, found {}", given.step->metres));
   std::optional<PlacedShape> in;
   if (given.in.given()) in = read_closed_shape(run, given.in);
   scene::MediumId medium;

@@ -1,4 +1,6 @@
 // Ready-made parts of scenes: constant media and plain materials.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scene/scene.h"
@@ -76,6 +78,11 @@ MediumId add_constant_medium(Scene& scene, const ConstantMedium& given) {
   }
   scene.media.push_back(std::move(medium));
   return MediumId(scene.media.size() - 1);
+}
+
+std::string describe(const Step& step) {
+  if (!step.automatic()) return fmt::format("{}", step.metres);
+  return step.proven ? fmt::format("auto({}%)", step.tolerance * 100) : "auto";
 }
 
 }  // namespace tyndall::scene

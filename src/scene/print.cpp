@@ -41,6 +41,7 @@ class Printer {
   void put(int v) { fmt::format_to(out(), "{}", v); }
   void put(std::uint64_t v) { fmt::format_to(out(), "{}", v); }
   void put(std::uint32_t v) { fmt::format_to(out(), "{}", v); }
+  void put(const Step& v) { put_text(describe(v)); }
   void put(bool v) { put_text(v ? "true" : "false"); }
   void put(const Angle& a) { fmt::format_to(out(), "{}rad", a.radians); }
   void put(std::string_view v) { put_text(v); }

@@ -15,6 +15,7 @@
 #include "optics/lights.h"
 #include "optics/surface_model.h"
 #include "scene/medium.h"
+#include "scene/step.h"
 #include "vm/program.h"
 
 namespace tyndall::scene {
@@ -25,7 +26,7 @@ struct RenderSettings {
   static constexpr std::string_view keyword = "render";
   int width = 640, height = 360;  // `resolution: (w, h)`, read by resolve
   int samples = 64;
-  double step = 0.1;  // [m] of world space; volumes may override it
+  Step step;  // volumes may override it
   int light_samples = 1;
   int bounces = 1024;
   std::uint64_t seed = 0;
@@ -231,7 +232,7 @@ struct Volume {
   Transform world_from_shape;   // the shape's own transform included
   Transform world_from_medium;  // the volume's transform: p = inverse(world_from_medium) * P
   MediumId medium;
-  std::optional<double> step;  // [m] of world space
+  std::optional<Step> step;
   bool visible = true;
   Span definition{};
   // Set: the medium gives way to bodies of glass of a higher priority.

@@ -76,7 +76,7 @@ Problems validate(const RenderSettings& s) {
         {"resolution", fmt::format("'resolution' must be from 1 to {} on each side, found ({}, {})",
                                    max_resolution, s.width, s.height)});
   want_at_least(problems, "samples", s.samples, 1);
-  want_positive(problems, "step", s.step);
+  if (!s.step.automatic()) want_positive(problems, "step", s.step.metres);
   want_at_least(problems, "light_samples", s.light_samples, 1);
   want_at_least(problems, "bounces", s.bounces, 0);
   return problems;

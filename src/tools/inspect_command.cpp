@@ -9,6 +9,7 @@
 #include "compile/compiled_scene.h"
 #include "tools/commands.h"
 #include "tools/load.h"
+#include "tools/medium_features.h"
 #include "tools/report.h"
 #include "vm/program.h"
 
@@ -49,10 +50,7 @@ std::string features_text(LoadedScene& loaded) {
   };
   std::string text;
   for (const auto& [name, used] : list) text += fmt::format("{:<36}{}\n", name, yes_no(used));
-  for (const scene::Medium& medium : world.scene.media)
-    text += fmt::format("medium {}: {}; {} instructions a segment, {} for extinction alone\n", medium.name,
-                        medium.homogeneous() ? "the same everywhere" : "varies in space",
-                        medium.full.lane_code.size(), medium.extinction.lane_code.size());
+  text += medium_features(world);
   return text;
 }
 

@@ -51,6 +51,24 @@ bool read_numbers(std::string_view text, std::string_view separator, std::span<i
   return text.empty();
 }
 
+bool read_number(std::string_view text, double& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && number > 0 && std::isfinite(number);
+}
+
+// "0.1", "auto", "auto(1%)", "auto(0.01)".
+std::optional<scene::Step> read_step(std::string_view text) {
+  double number = 0;
+  if (text == "auto") return scene::Step::automatic_unproven();
+  if (!text.starts_with("auto(") || !text.ends_with(")"))
+    return read_number(text, number) ? std::optional<scene::Step>(number) : std::nullopt;
+  text = text.substr(5, text.size() - 6);
+  const bool percent = text.ends_with("%");
+  if (percent) text.remove_suffix(1);
+  if (!read_number(text, number) || !((number = percent ? number / 100 : number) < 1)) return std::nullopt;
+  return scene::Step::automatic_within(number);
+}
+
 [[noreturn]] void refuse(const std::string& option, std::string_view wanted, const std::string& text) {
   throw CLI::ValidationError(option, fmt::format("wants {}, not '{}'", wanted, text));
 }
@@ -92,11 +110,16 @@ void add_quality_options(CLI::App& command, RenderArguments& arguments) {
       ->check(positive_count)
       ->option_text("N");
   command
-      .add_option(
-          "--step", arguments.step,
-          "Length of a step through a volume in metres, in place of the scene's (a volume's own stays)")
-      ->check(positive_number("a length in metres"))
-      ->option_text("X");
+      .add_option_function<std::string>(
+          "--step",
+          [&arguments](const std::string& text) {
+            arguments.step = read_step(text);
+            if (!arguments.step)
+              refuse("--step", "a length in metres above 0, auto, or a tolerance: auto(1%)", text);
+          },
+          "Length of a step through a volume in metres, or auto(TOLERANCE): as long as proven bounds of the "
+          "density allow; in place of the scene's (a volume's own stays)")
+      ->option_text("X|auto|auto(1%)");
   command
       .add_option("--light-samples", arguments.light_samples,
                   "Direct-light samples a march, in place of the scene's")
@@ -262,7 +285,7 @@ std::string replay_command(const RenderArguments& arguments, int x, int y, std::
   if (arguments.resolution)
     command += fmt::format(" --resolution {}x{}", arguments.resolution->x, arguments.resolution->y);
   add("--samples", arguments.samples);
-  add("--step", arguments.step);
+  if (arguments.step) command += " --step " + shell_word(scene::describe(*arguments.step));
   add("--light-samples", arguments.light_samples);
   add("--bounces", arguments.bounces);
   add("--seed", arguments.seed);

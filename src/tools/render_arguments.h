@@ -22,7 +22,7 @@ struct RenderArguments {
   std::optional<Pair<int>> resolution, pixel;
   std::optional<render::RenderOptions::Crop> crop;
   std::optional<int> samples, light_samples, bounces;
-  std::optional<double> step;  // [m]
+  std::optional<scene::Step> step;
   std::optional<std::uint64_t> seed, sample;
   std::optional<SampleRange> sample_range;
   std::optional<double> error;       // root of the mean squared relative error

@@ -58,7 +58,7 @@ image::Metadata metadata_of(const RenderArguments& arguments, const scene::Scene
   const SampleRange samples = samples_of(arguments, scene);
   std::string settings =
       fmt::format("step={} light_samples={} bounces={} method={} distance={} transmittance={}",
-                  scene.settings.step, scene.settings.light_samples, scene.settings.bounces,
+                  scene::describe(scene.settings.step), scene.settings.light_samples, scene.settings.bounces,
                   name(arguments.method), name(arguments.distance), name(arguments.transmittance));
   if (arguments.crop) {
     const auto& crop = *arguments.crop;

@@ -43,10 +43,9 @@ constexpr float endless = std::numeric_limits<float>::infinity();
 
 // A bound without end may be NaN: the kernels' invariant. NaN for an end is no end.
 void write(const BoundView& view, std::size_t i, float lo, float hi) {
-  const bool bounded = hi - lo < endless;
-  view.data[i] = bounded ? lo : lo > -endless ? lo : -endless;
-  view.data[view.pitch + i] = bounded ? hi : hi < endless ? hi : endless;
-  view.data[2 * view.pitch + i] = bounded ? 0.0f : 1.0f;
+  view.data[i] = lo > -endless ? lo : -endless;
+  view.data[view.pitch + i] = hi < endless ? hi : endless;
+  view.data[2 * view.pitch + i] = hi - lo < endless ? 0.0f : 1.0f;
 }
 
 void write_everywhere(const BoundView& view, float lo, float hi) {
@@ -62,10 +61,13 @@ void write_constant(const BoundView& view, float value) {
 // The boxes' ends, and the last box again up to `padded`.
 void write_boxes(const BoundView& view, const float* lo, const float* hi, std::size_t boxes,
                  std::size_t padded) {
-  for (std::size_t i = 0; i < padded; ++i) {
-    const std::size_t from = std::min(i, boxes - 1);
-    write(view, i, lo[from], hi[from]);
-  }
+  float* const low = view.data;
+  float* const high = view.data + view.pitch;
+  float* const nan = view.data + 2 * view.pitch;
+  for (std::size_t i = 0; i < boxes; ++i) low[i] = lo[i] > -endless ? lo[i] : -endless;
+  for (std::size_t i = 0; i < boxes; ++i) high[i] = hi[i] < endless ? hi[i] : endless;
+  for (std::size_t i = 0; i < boxes; ++i) nan[i] = hi[i] - lo[i] < endless ? 0.0f : 1.0f;
+  for (std::size_t i = boxes; i < padded; ++i) write(view, i, lo[boxes - 1], hi[boxes - 1]);
 }
 
 ValueBounds read(const BoundView& view, std::size_t i) {
@@ -118,9 +120,11 @@ void IntervalMachine::run(const Program& program, const BoxInputs& inputs, std::
         write_boxes(operands[program.first_input() + k], ends(program.inputs[k]).first + begin,
                     ends(program.inputs[k]).second + begin, used, issued);
     run_interval_code(program.lane_code, operands, issued, program.planes.data());
-    for (std::size_t k = 0; k < program.outputs.size(); ++k)
-      for (std::size_t i = 0; i < used; ++i)
-        outputs[k * boxes + begin + i] = read(operands[program.outputs[k]], i);
+    for (std::size_t k = 0; k < program.outputs.size(); ++k) {
+      const BoundView view = operands[program.outputs[k]];
+      ValueBounds* const out = outputs.data() + k * boxes + begin;
+      for (std::size_t i = 0; i < used; ++i) out[i] = read(view, i);
+    }
   }
 }
 

@@ -7,6 +7,9 @@ namespace tyndall {
 // when a scene cannot be read.
 bool bench_scenes(double seconds);
 
+// Bounds against points, grids of a cloud, and what skipping empty space saves.
+void bench_bounds(double seconds_a_row);
+
 // The estimators of transmittance on known densities: bias and error at each cost.
 void bench_transmittance();
 

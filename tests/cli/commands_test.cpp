@@ -63,6 +63,33 @@ TEST_F(Commands, InspectPrintsEveryStage) {
   }
 }
 
+TEST_F(Commands, InspectTellsWhatIsProvenOfEachMedium) {
+  const std::string scene = file("a.tyn", R"(camera perspective { from: (0, 0, 4)  to: (0, 0, 0)  fov: 40deg }
+volume { in: box { min: (-1, -1, -1)  max: (1, 1, 1) }
+         medium: { density = 9 * max(0, 0.5 - length(p) + 0.1 * noise(p * 3, time))  albedo = 0.9 } }
+volume { in: sphere {}  medium: { density = 2  albedo = 0.5 } }
+light environment { radiance: 1 }
+)");
+  const Outcome outcome = tyndall({"inspect", scene, "--stage", "features"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string& text = outcome.out;
+  EXPECT_NE(text.find("varies in space, changes with time"), std::string::npos) << text;
+  EXPECT_NE(text.find("the same everywhere"), std::string::npos) << text;
+  EXPECT_NE(text.find("instructions a segment"), std::string::npos) << text;
+  EXPECT_NE(text.find("registers"), std::string::npos) << text;
+  // A ball of radius 0.5 to 0.6 fills 6 to 12 % of its box.
+  const std::size_t cells = text.find("% proved empty");
+  ASSERT_NE(cells, std::string::npos) << text;
+  const double share = std::stod(text.substr(text.rfind(' ', cells - 2)));
+  EXPECT_GT(share, 80) << text;
+  EXPECT_LT(share, 94) << text;
+  const std::size_t majorants = text.find("majorants");
+  ASSERT_NE(majorants, std::string::npos) << text;
+  const double tightness = std::stod(text.substr(majorants + 9));
+  EXPECT_GE(tightness, 1) << text;
+  EXPECT_LT(tightness, 2.1) << text;
+}
+
 TEST_F(Commands, InspectShowsTokensOfWhatCannotBeParsed) {
   const Outcome outcome = tyndall({"inspect", file("a.tyn", "let = = 3\n"), "--stage", "tokens"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;

@@ -1,0 +1,41 @@
+// Step sizes with a proven tolerance (transport §4, certified marching).
+//
+// Segment i of length Δ takes its extinction at one uniform place, so its optical depth has the right mean
+// and lies in a range of width d = Δ (M - m). Segments come in mirrored pairs (march.h, jitter), pairs are
+// independent, and by Hoeffding's lemma, for the pairs' ranges d + d',
+//   1 <= E[T'] / T <= exp(∑ over pairs (d + d')² / 8) <= exp(S),  S = ∑ d² / 4.
+// With T <= exp(-∫ m) it is enough for E[T'] - T <= tolerance that S <= ln(1 + tolerance exp(∫ m)) at the end
+// of every segment: what is deep inside may be coarse.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tyndall::render {
+
+// A cell along a ray, and its bounds of extinction; the next one begins where it ends, or later.
+struct CertifiedCell {
+  double t0 = 0, t1 = 0;
+  float minorant = 0, majorant = 0, spread = 0;
+};
+
+// `count` equal segments over [t0, t1).
+struct CertifiedStretch {
+  double t0 = 0, t1 = 0;
+  std::uint32_t count = 0;
+};
+
+// Scratch of certified_stretches.
+struct CertifiedScratch {
+  std::vector<double> spread, budget, spent;  // up to the end of each cell
+  std::vector<std::uint32_t> corners;
+};
+
+// Cuts the cells into as few segments as the tolerance allows, none longer than `widest`, and none shorter
+// than `narrowest` for the tolerance's sake (0: it is kept whatever it takes). `together` is how many media
+// share the segments: their depths add up.
+void certified_stretches(std::span<const CertifiedCell> cells, double tolerance, int together, double widest,
+                         double narrowest, CertifiedScratch& scratch, std::vector<CertifiedStretch>& out);
+
+}  // namespace tyndall::render

@@ -1,0 +1,113 @@
+#include "render/stretches.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/numerics.h"
+#include "compile/grid_walk.h"
+#include "render/worker.h"
+
+namespace tyndall::render {
+
+namespace {
+
+using compile::CellKind;
+using compile::CompiledScene;
+using compile::CompiledVolume;
+using compile::VolumeInterval;
+
+// Shorter stays are marched as they are: looking into the grid would cost more than it saves.
+constexpr double least_steps = 3;
+
+// Leaves out what is empty, but for gaps too short to save a segment.
+void skip_empty(compile::GridWalk& walk, const VolumeInterval& stay, double step, std::vector<Stretch>& out) {
+  const std::size_t first = out.size();
+  compile::MajorantSegment s;
+  while (walk.next(s)) {
+    if (s.bounds.kind == CellKind::empty) continue;
+    const bool uniform = s.bounds.kind == CellKind::uniform && s.t1 - s.t0 > 2 * step;
+    if (uniform) {
+      out.push_back({s.t0, s.t1, stay.volume, infinity});
+      continue;
+    }
+    const bool joins = out.size() > first && out.back().step == step && s.t0 - out.back().t1 < step;
+    if (joins)
+      out.back().t1 = s.t1;
+    else
+      out.push_back({s.t0, s.t1, stay.volume, step});
+  }
+}
+
+// Segments from the spread of the bounds.
+void certify(compile::GridWalk& walk, const VolumeInterval& stay, const CompiledVolume& volume,
+             double tolerance, int together, Worker& worker, std::vector<Stretch>& out) {
+  worker.certified_cells.clear();
+  worker.certified_stretches.clear();
+  const auto flush = [&] {
+    for (const CertifiedStretch& s : worker.certified_stretches)
+      out.push_back({s.t0, s.t1, stay.volume, s.count == 1 ? infinity : (s.t1 - s.t0) / (s.count - 0.5)});
+  };
+  compile::MajorantSegment s;
+  while (walk.next(s)) {
+    if (s.bounds.kind == CellKind::empty) continue;
+    worker.certified_cells.push_back({s.t0, s.t1, s.bounds.minorant, s.bounds.majorant,
+                                      // Rounding apart, one value: exact in one segment.
+                                      s.bounds.kind == CellKind::uniform ? 0 : s.bounds.spread});
+  }
+  const double narrowest = volume.step.proven ? 0 : volume.widest_step / 8;
+  certified_stretches(worker.certified_cells, tolerance, together, volume.widest_step, narrowest,
+                      worker.certified_scratch, worker.certified_stretches);
+  flush();
+}
+
+}  // namespace
+
+void find_stretches(const CompiledScene& world, const compile::Ray& ray, compile::RayKind kind,
+                    Worker& worker, std::vector<Stretch>& out) {
+  out.clear();
+  std::vector<VolumeInterval>& stays = worker.intervals;
+  world.volume_intervals(ray, kind, stays);
+  const auto varies = [&](const VolumeInterval& i) {
+    return !world.media[world.volumes[i.volume].medium].homogeneous;
+  };
+  const auto certified = static_cast<double>(std::count_if(stays.begin(), stays.end(), [&](const auto& i) {
+    return varies(i) && world.volumes[i.volume].step.automatic();
+  }));
+  for (const VolumeInterval& stay : stays) {
+    const CompiledVolume& volume = world.volumes[stay.volume];
+    if (!varies(stay)) {
+      out.push_back({stay.t0, stay.t1, stay.volume, infinity});
+      continue;
+    }
+    const bool automatic = volume.step.automatic();
+    if (!automatic &&
+        (!worker.skips_empty || !volume.skips || stay.t1 - stay.t0 <= least_steps * volume.step.metres)) {
+      out.push_back({stay.t0, stay.t1, stay.volume, volume.step.metres});
+      continue;
+    }
+    compile::GridWalk walk(*world.grids[volume.grid], volume.medium_from_render, ray, stay.t0, stay.t1,
+                           worker.bounds,
+                           automatic ? compile::GridWalk::Detail::bounds : compile::GridWalk::Detail::kinds);
+    if (!automatic) {
+      skip_empty(walk, stay, volume.step.metres, out);
+      continue;
+    }
+    // Each stay takes its share of the tolerance: (1 + a) (1 + b) - 1 stays below it when ln(1 + a) + ln(1 +
+    // b) does.
+    const auto together = static_cast<int>(std::count_if(stays.begin(), stays.end(), [&](const auto& i) {
+      return varies(i) && i.t0 < stay.t1 && stay.t0 < i.t1;
+    }));
+    certify(walk, stay, volume, std::log1p(volume.step.tolerance) / certified, together, worker, out);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Stretch& a, const Stretch& b) { return a.t0 < b.t0; });
+}
+
+void whole_stays(const CompiledScene& world, const compile::Ray& ray, compile::RayKind kind, Worker& worker,
+                 std::vector<Stretch>& out) {
+  out.clear();
+  world.volume_intervals(ray, kind, worker.intervals);
+  for (const VolumeInterval& stay : worker.intervals)
+    out.push_back({stay.t0, stay.t1, stay.volume, infinity});
+}
+
+}  // namespace tyndall::render
