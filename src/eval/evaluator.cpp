@@ -28,11 +28,25 @@ Scalar Evaluator::emit(vm::Op op, std::span<const Scalar> operands, Span span, s
     for (std::size_t i = 0; i < operands.size(); ++i) values[i] = operands[i].value;
     return Scalar{vm::evaluate(op, std::span(values.data(), operands.size()), repeats, immediate)};
   }
+  if (op == vm::Op::pow && operands[1].known())
+    if (const std::optional<Scalar> power = easy_power(operands[0], operands[1].value, span)) return *power;
   std::array<vm::NodeId, 4> nodes;
   for (std::size_t i = 0; i < operands.size(); ++i) nodes[i] = node(operands[i]);
   const vm::NodeId id = builder_->emit(op, std::span<const vm::NodeId>(nodes.data(), operands.size()), span,
                                        repeats, immediate);
   return Scalar{0, id};
+}
+
+// Powers that a few products or a root give faster than pow, and as exactly.
+std::optional<Scalar> Evaluator::easy_power(const Scalar& x, double exponent, Span span) {
+  const auto square = [&](const Scalar& a) { return emit(vm::Op::mul, {a, a}, span); };
+  if (exponent == 1) return x;
+  if (exponent == 2) return square(x);
+  if (exponent == 3) return emit(vm::Op::mul, {square(x), x}, span);
+  if (exponent == 4) return square(square(x));
+  if (exponent == 0.5) return emit(vm::Op::sqrt, {x}, span);
+  if (exponent == -1) return emit(vm::Op::div, {Scalar{1}, x}, span);
+  return std::nullopt;
 }
 
 vm::NodeId Evaluator::node(const Scalar& scalar) {
@@ -202,10 +216,8 @@ struct Dispatch {
           list.type == Type::vec || list.type == Type::pair ? "components are v.x, v.y, v.z" : "");
     if (index.type != Type::number)
       return ev.error(place(e.index), fmt::format("an index is a number, found {}", describe(index.type)));
-    if (!index.known())
-      return ev.error(place(e.index), "an index must be known when the scene is read",
-                      "keys(x, [0, a], [1, b]) chooses by a value that changes from place to place");
     const std::vector<Value>& elements = list.as_list();
+    if (!index.known() && !elements.empty()) return chosen(elements, index.scalars[0]);
     const double i = index.as_number();
     if (i != std::floor(i))
       return ev.error(place(e.index), fmt::format("an index is a whole number, found {}", text_of(index)),
@@ -216,6 +228,17 @@ struct Dispatch {
                       elements.empty() ? "the list is empty"
                                        : fmt::format("indices run from 0 to {}", elements.size() - 1));
     return elements[static_cast<std::size_t>(i)];
+  }
+
+  // The element at an index that differs from place to place, rounded down; beyond the ends the first and the
+  // last.
+  Value chosen(const std::vector<Value>& elements, const Scalar& index) const {
+    Value result = elements[0];
+    for (std::size_t k = 1; k < elements.size() && !result.is_error(); ++k) {
+      const Scalar reached = ev.emit(vm::Op::less_equal, {Scalar{static_cast<double>(k)}, index}, span);
+      result = select(ev, reached, elements[k], result, span);
+    }
+    return result;
   }
 
   Value operator()(const MemberExpr& e) const {
@@ -284,13 +307,20 @@ struct Dispatch {
       const Value bound = ev.evaluate_as(Type::number, tree, id, scope, what);
       failed |= bound.is_error();
       if (bound.is_error()) return;
-      if (!bound.known()) {
-        ev.error(place(id), "loop bounds in a body must be known when the scene is read",
-                 "loop to a fixed number and use if … then … else inside");
+      if (bound.known()) {
+        to = bound.as_number();
+      } else if (id == e.last) {
+        range.lane_last = bound.scalars[0];
+        to = ev.builder()->most(range.lane_last.node);
+        failed |= !std::isfinite(to);
+        if (failed)
+          ev.error(place(id), "the end of this range differs from place to place, and it may be any number",
+                   "give it a limit, for instance min(n, 8)");
+      } else {
+        ev.error(place(id), fmt::format("{} must be known when the scene is read", what),
+                 "only the end of a range may differ from place to place");
         failed = true;
-        return;
       }
-      to = bound.as_number();
     };
     read(e.first, range.first, "the beginning of a range");
     read(e.last, range.last, "the end of a range");
@@ -298,6 +328,9 @@ struct Dispatch {
       read(e.step, range.step, "the step of a range");
       if (!failed && range.step == 0)
         return ev.error(place(e.step), "the step of a range is 0", "write ..1 or leave it out");
+      if (!failed && range.differs() && range.step < 0)
+        return ev.error(place(e.step), "a range that counts down ends at a known number in a body",
+                        "count up, and take the difference inside");
     }
     return failed ? Value{} : Value::of_heavy(Type::range, range);
   }

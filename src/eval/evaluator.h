@@ -133,6 +133,9 @@ class Evaluator {
   // The node of a scalar, making a constant of a known one. Bodies only.
   vm::NodeId node(const Scalar& scalar);
 
+  // x to the exponent by other operations, where they are as exact; bodies only.
+  std::optional<Scalar> easy_power(const Scalar& x, double exponent, Span span);
+
   // Reports an error with the chain of calls that led here, and gives the error value.
   Value error(Span span, std::string message, std::string help = {},
               std::vector<Diagnostic::Note> notes = {});

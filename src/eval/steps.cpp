@@ -201,10 +201,34 @@ class Steps {
       const auto inner = below(scope);
       const Value value = range ? Value::number(at(*range, i)) : (*list)[static_cast<std::size_t>(i)];
       ev_.bind(inner, {loop.name.symbol, value, BindingKind::parameter, loop.name.span, false});
-      if (std::optional<Value> returned = run(loop.body, inner)) return returned;
+      if (range && range->differs())
+        run_round(*range, value.scalars[0], loop, span, inner);
+      else if (std::optional<Value> returned = run(loop.body, inner))
+        return returned;
       if (ev_.context().diagnostics->full()) break;
     }
     return std::nullopt;
+  }
+
+  // A round that only some lanes take: those where the loop's end is not reached yet.
+  void run_round(const RangeValue& range, const Scalar& at, const ForItem& loop, Span span,
+                 const std::shared_ptr<Scope>& inner) {
+    const Scalar taken =
+        ev_.emit(range.excludes_last ? vm::Op::less : vm::Op::less_equal, {at, range.lane_last}, span);
+    Changes changes;
+    std::vector<PartialReturn> partial;
+    const std::optional<Value> returned = run_branch(loop.body, inner, changes, partial);
+    for (PartialReturn& p : partial) {
+      p.condition = ev_.emit(vm::Op::logical_and, {taken, p.condition}, span);
+      partial_returns_.push_back(p);
+    }
+    if (returned) partial_returns_.push_back({taken, *returned, span});
+    for (const Changes::Output& output : changes.outputs)
+      ev_.error(output.assign->name.span,
+                fmt::format("'{}' is set in a loop that may end before its first round",
+                            ev_.text(output.assign->name.symbol)),
+                "gather the value in a var and set the output after the loop");
+    merge(taken, changes, {}, returned.has_value(), false, *inner, span);
   }
 
   // After an error in a header: nothing inside is known, and nothing is complained of that follows from it.

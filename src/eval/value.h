@@ -100,6 +100,10 @@ struct ObjectDefinition {
 struct RangeValue {
   double first = 0, last = 0, step = 1;
   bool excludes_last = false;
+  // In a body: the value at which each lane's rounds end, when it differs; `last` is the most it can be.
+  Scalar lane_last{};
+
+  bool differs() const { return !lane_last.known(); }
 };
 
 using Heavy = std::variant<std::monostate, std::string, Transform, std::vector<Value>, RangeValue, Function,

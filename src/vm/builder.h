@@ -38,6 +38,9 @@ class Builder {
 
   bool is_constant(NodeId id) const;
   float constant_value(NodeId id) const;  // only of constants
+  // A number that the node never exceeds (NaN aside), for the ends of loops; infinite where none is easily
+  // seen.
+  double most(NodeId id) const;
   // True when the node has one value for all lanes (constants, time, and what is made of them).
   bool is_uniform(NodeId id) const;
 
