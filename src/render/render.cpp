@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <set>
 
 #include "base/check.h"
 #include "base/parallel.h"
@@ -32,6 +33,25 @@ std::vector<Tile> tiles_of(const RenderOptions::Crop& crop) {
 // Samples of the pass that starts at `done`: 1, 1, 2, 4, 8, then 16 each, so that a stopped render is whole
 // to within a pass.
 int pass_length(int done, int rest) { return std::min({done == 0 ? 1 : done, 16, rest}); }
+
+// Adds what a worker's machine ran of each shader.
+void sum_lanes(Statistics& total, const Worker& worker, const scene::Scene& scene) {
+  total.medium_lanes.resize(2 * scene.media.size());
+  total.material_lanes.resize(scene.materials.size());
+  std::set<std::uint64_t> seen;
+  const auto add = [&](std::vector<std::uint64_t>& sum, const vm::Program& program) {
+    sum.resize(program.lane_code.size());
+    if (!seen.insert(program.fingerprint).second) return;
+    const std::vector<std::uint64_t> lanes = worker.machine.lanes_run(program);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += lanes[i];
+  };
+  for (std::size_t i = 0; i < scene.media.size(); ++i) {
+    add(total.medium_lanes[2 * i], scene.media[i].full);
+    add(total.medium_lanes[2 * i + 1], scene.media[i].extinction);
+  }
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    add(total.material_lanes[i], scene.materials[i].program);
+}
 
 // Adds what a worker counted.
 void sum_into(Statistics& total, const Worker& worker) {
@@ -215,6 +235,7 @@ class Render {
     BadValueCounts bad_values;
     for (const auto& worker : workers_) {
       sum_into(total, *worker);
+      sum_lanes(total, *worker, world_.scene);
       bad_values.add_all(worker->bad_values);
     }
     if (total.samples > 0) total.cut_throughput /= static_cast<double>(total.samples);

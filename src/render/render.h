@@ -83,6 +83,9 @@ struct Statistics {
   };
   std::optional<BadSample> first_bad_sample;  // the least: the same for any thread count
   std::vector<BadValue> bad_values;
+  // Lanes that each instruction of a program's lane code was run for: of every medium all outputs and
+  // extinction alone, in turn; of every material. A program that another one equals has none of its own.
+  std::vector<std::vector<std::uint64_t>> medium_lanes, material_lanes;
   double seconds = 0;
   bool stopped = false;        // by RenderOptions::stop
   bool out_of_time = false;    // ended by the time limit

@@ -30,6 +30,13 @@ struct PhaseLobe {
   Number weight{1};
 };
 
+// A value of a medium's body that someone wants to look at: an output as it was set, or a name that the body
+// defines.
+struct Watched {
+  std::optional<vm::Program> program{};  // of one to three components; nothing when there is no such name
+  std::vector<std::string> names{};      // of all that could be looked at
+};
+
 // Coefficients are per metre of world space, density already multiplied in.
 struct Medium {
   std::string name;
@@ -42,6 +49,8 @@ struct Medium {
 
   vm::Program extinction;  // sigma_t only, for transmittance: outputs are named by `extinction_sigma_t`
   RgbOutputs extinction_sigma_t{};
+
+  std::optional<Watched> watched{};  // when asked for
 
   // Source places of the `density`, `albedo`, … statements, for reports on bad values: one per output of
   // `full`.

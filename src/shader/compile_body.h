@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "eval/evaluator.h"
 #include "eval/value.h"
@@ -14,7 +15,9 @@ void check_outputs(eval::Context& context, const syntax::SyntaxTree& tree, synta
                    syntax::BodyKind kind, std::string_view name);
 
 struct Options {
-  bool fold = true;  // off: constants stay computations, for tests that compare
+  bool fold = true;     // off: constants stay computations, for tests that compare
+  bool guards = true;   // off: every lane computes every branch
+  std::string watch{};  // a name whose value every medium also gets as a program of its own (scene::Watched)
 };
 
 // Runs the body with p, P, time as inputs, checks which outputs it sets (language.md "Medium": either albedo

@@ -122,7 +122,7 @@ std::optional<scene::Material> compile_material(eval::Context& context, const ev
   eval::Evaluator in_scene(context);
   const std::optional<eval::Body> with_defaults = in_scene.bound(body, body.definition);
   if (!with_defaults) return std::nullopt;
-  vm::Builder builder(options.fold);
+  vm::Builder builder(options.fold, options.guards);
   eval::Evaluator ev(context, &builder, syntax::BodyKind::material);
   bool failed = false;
   const Outputs outputs = run_body(ev, *with_defaults, rules, failed);

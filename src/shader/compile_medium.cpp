@@ -166,6 +166,25 @@ class MediumCompiler {
   OutputList list_;
 };
 
+// The program of the name's value, an output as the body set it or a name of its own.
+scene::Watched watched(eval::Evaluator& ev, const std::string& name, const Outputs& outputs,
+                       const eval::Scope& scope) {
+  scene::Watched result;
+  const auto offer = [&](std::string_view offered, const Value& value) {
+    const auto width = static_cast<std::size_t>(value.width());
+    if (width == 0) return;
+    result.names.emplace_back(offered);
+    if (offered != name) return;
+    std::vector<vm::NodeId> nodes;
+    for (std::size_t i = 0; i < width; ++i) nodes.push_back(ev.node(value.scalars[i]));
+    result.program = ev.builder()->finish(nodes);
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (outputs[i]) offer(rules[i].name, outputs[i]->value);
+  for (const eval::Binding& binding : scope.bindings) offer(ev.text(binding.symbol), binding.value);
+  return result;
+}
+
 }  // namespace
 
 std::span<const OutputRule> medium_outputs() { return rules; }
@@ -175,12 +194,16 @@ std::optional<scene::Medium> compile_medium(eval::Context& context, const eval::
   eval::Evaluator in_scene(context);
   const std::optional<eval::Body> with_defaults = in_scene.bound(body, body.definition);
   if (!with_defaults) return std::nullopt;
-  vm::Builder builder(options.fold);
+  vm::Builder builder(options.fold, options.guards);
   eval::Evaluator ev(context, &builder, syntax::BodyKind::medium);
   bool failed = false;
-  const Outputs outputs = run_body(ev, *with_defaults, rules, failed);
+  const auto scope = std::make_shared<eval::Scope>();
+  scope->parent = with_defaults->scope;
+  const Outputs outputs = run_body(ev, *with_defaults, scope, rules, failed);
   if (failed || !combine(ev, body, outputs)) return std::nullopt;
-  return MediumCompiler(ev, *with_defaults, outputs).compile();
+  std::optional<scene::Medium> medium = MediumCompiler(ev, *with_defaults, outputs).compile();
+  if (medium && !options.watch.empty()) medium->watched = watched(ev, options.watch, outputs, *scope);
+  return medium;
 }
 
 }  // namespace tyndall::shader

@@ -76,6 +76,14 @@ void check_outputs(eval::Context& context, const syntax::SyntaxTree& tree, synta
 
 std::vector<std::optional<Output>> run_body(eval::Evaluator& evaluator, const eval::Body& body,
                                             std::span<const OutputRule> rules, bool& failed) {
+  auto scope = std::make_shared<eval::Scope>();
+  scope->parent = body.scope;
+  return run_body(evaluator, body, scope, rules, failed);
+}
+
+std::vector<std::optional<Output>> run_body(eval::Evaluator& evaluator, const eval::Body& body,
+                                            const std::shared_ptr<eval::Scope>& scope,
+                                            std::span<const OutputRule> rules, bool& failed) {
   std::vector<std::optional<Output>> outputs(rules.size());
   const int errors = evaluator.errors_reported();
   eval::Evaluator::Outputs settable;
@@ -99,8 +107,6 @@ std::vector<std::optional<Output>> run_body(eval::Evaluator& evaluator, const ev
     if (converted.width() > 0) in_range(evaluator, *rule, converted, span);
     output = Output{converted, item.span};
   };
-  auto scope = std::make_shared<eval::Scope>();
-  scope->parent = body.scope;
   evaluator.run_steps(*body.tree, body.block, scope, &settable);
   // An output may also be poisoned by a mistake that was reported elsewhere.
   failed |= evaluator.errors_reported() > errors;

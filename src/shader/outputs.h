@@ -35,6 +35,10 @@ struct Output {
 // unknown names, values out of range, and outputs set twice. `failed` turns true after any error.
 std::vector<std::optional<Output>> run_body(eval::Evaluator& evaluator, const eval::Body& body,
                                             std::span<const OutputRule> rules, bool& failed);
+// The same with the scope that the body is run in, so that its names can be looked at afterwards.
+std::vector<std::optional<Output>> run_body(eval::Evaluator& evaluator, const eval::Body& body,
+                                            const std::shared_ptr<eval::Scope>& scope,
+                                            std::span<const OutputRule> rules, bool& failed);
 
 // Outputs of a program under construction: equal nodes share one.
 class OutputList {

@@ -9,6 +9,7 @@
 #include "compile/compiled_scene.h"
 #include "tools/commands.h"
 #include "tools/load.h"
+#include "tools/look.h"
 #include "tools/medium_features.h"
 #include "tools/report.h"
 #include "vm/program.h"
@@ -69,9 +70,11 @@ constexpr StagePrinter stages[] = {
 struct InspectArguments {
   SceneRequest request;
   std::string stage = "scene";
+  LookArguments look;
 };
 
 ExitStatus run_inspect(const InspectArguments& arguments) {
+  if (arguments.look.wanted()) return look(arguments.request, arguments.look);
   const StagePrinter& stage =
       *std::find_if(std::begin(stages), std::end(stages),
                     [&](const StagePrinter& candidate) { return candidate.name == arguments.stage; });
@@ -96,6 +99,7 @@ void add_inspect_command(CLI::App& program, Action& action) {
   command->add_option("--stage", arguments->stage, "What to print (default: scene)")
       ->check(CLI::IsMember(names))
       ->option_text("tokens|tree|scene|bytecode|features");
+  add_look_options(*command, arguments->look);
   command->callback([arguments, &action] { action = [arguments] { return run_inspect(*arguments); }; });
 }
 

@@ -215,6 +215,8 @@ void add_running_options(CLI::App& command, RenderArguments& arguments) {
       ->option_text("FILE.json");
   command.add_flag("--strict", arguments.strict,
                    "Make values of shaders that are no numbers or negative an error");
+  command.add_flag("--profile", arguments.profile,
+                   "Print the share of each source line in the shaders' time");
   command.add_flag("--quiet", arguments.quiet, "Say nothing but errors and warnings");
   command.add_flag("--json", arguments.json, "Print problems and statistics as JSON on standard output");
   auto* pixel = command

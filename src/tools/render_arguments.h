@@ -32,7 +32,7 @@ struct RenderArguments {
   render::Method method = render::RenderOptions{}.method;
   render::Distance distance = render::RenderOptions{}.distance;
   render::Transmittance transmittance = render::RenderOptions{}.transmittance;
-  bool strict = false, quiet = false, json = false;
+  bool strict = false, quiet = false, json = false, profile = false;
 };
 
 // Adds every option of the command, each with its check: a value that cannot be is misuse of the command

@@ -13,6 +13,7 @@
 #include "image/files.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
+#include "tools/profile.h"
 #include "tools/progress.h"
 #include "tools/report.h"
 #include "tools/run_report.h"
@@ -138,6 +139,20 @@ render::RenderResult render_with_progress(const RenderArguments& arguments,
   return render::render(world, options, progress);
 }
 
+// Every shader's programs with what was run of them.
+std::vector<ProgramLanes> programs_of(const scene::Scene& scene, const render::Statistics& statistics) {
+  std::vector<ProgramLanes> programs;
+  for (std::size_t i = 0; i < scene.media.size(); ++i) {
+    const scene::Medium& medium = scene.media[i];
+    programs.push_back({"medium " + medium.name, &medium.full, statistics.medium_lanes[2 * i]});
+    programs.push_back({"medium " + medium.name, &medium.extinction, statistics.medium_lanes[2 * i + 1]});
+  }
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    programs.push_back(
+        {"material " + scene.materials[i].name, &scene.materials[i].program, statistics.material_lanes[i]});
+  return programs;
+}
+
 // Writes the picture and the statistics, and says what is to be said of the run.
 ExitStatus finish(const RenderArguments& arguments, LoadedScene& loaded, const scene::Scene& scene,
                   const std::string& scene_hash, const render::RenderResult& result, StageSeconds& seconds) {
@@ -158,6 +173,7 @@ ExitStatus finish(const RenderArguments& arguments, LoadedScene& loaded, const s
 
   report_bad_values(arguments, result.statistics, loaded.diagnostics);
   print_diagnostics(loaded.diagnostics, loaded.sources);
+  if (arguments.profile) print_result(profile_text(programs_of(scene, result.statistics), loaded.sources));
   if (arguments.json) {
     statistics["diagnostics"] = to_json(loaded.diagnostics, loaded.sources);
     print_json(statistics);

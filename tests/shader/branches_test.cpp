@@ -1,6 +1,12 @@
 // Conditions that differ from place to place: every lane gets its own branch's values.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "compiled.h"
 
 namespace tyndall::shader {
@@ -75,6 +81,32 @@ INSTANTIATE_TEST_SUITE_P(
                [](float) { return 2.0f; }},
         Branch{"medium m() { let v = if p.x > 0 then (1, 2, 3) else 5 density = v.y albedo = 1 }",
                [](float x) { return x > 0 ? 2.0f : 5.0f; }},
+        Branch{
+            "medium m() { var d = 0 for i in 0..<clamp(p.x, 0, 3) { d = d + 1 + i } density = d albedo = 1 }",
+            [](float x) { return x <= 0   ? 0.0f
+                                 : x <= 1 ? 1.0f
+                                 : x <= 2 ? 3.0f
+                                          : 6.0f; }},
+        Branch{"medium m() { var d = 1 for i in 1..min(p.x, 4) { d = d * 2 } density = d albedo = 1 }",
+               [](float x) { return std::exp2(std::max(0.0f, std::min(4.0f, std::floor(x)))); }},
+        Branch{"def f(x) = { for i in 0..<min(x, 3) { if x < i + 1.5 { return 10 + i } } return 5 } "
+               "medium m() { density = f(p.x) albedo = 1 }",
+               [](float x) {
+                 for (int i = 0; static_cast<float>(i) < std::min(x, 3.0f); ++i)
+                   if (x < static_cast<float>(i) + 1.5f) return 10.0f + static_cast<float>(i);
+                 return 5.0f;
+               }},
+        Branch{"def f(x) = { for i in 0..<min(x, 3) { return 7 } return 5 } medium m() { density = f(p.x) "
+               "albedo = 1 }",
+               [](float x) { return x > 0 ? 7.0f : 5.0f; }},
+        Branch{"medium m() { let l = [3, 5, 9] density = l[p.x] albedo = 1 }",
+               [](float x) { return x < 1   ? 3.0f
+                                    : x < 2 ? 5.0f
+                                            : 9.0f; }},
+        Branch{"medium m() { let l = [(1, 2, 3), 4] density = l[p.x].y albedo = 1 }",
+               [](float x) { return x < 1 ? 2.0f : 4.0f; }},
+        Branch{"medium m() { density = p.x^2 + abs(p.x)^3 + p.x^4 + (p.x + 9)^0.5 albedo = 1 }",
+               [](float x) { return x * x + std::abs(x * x * x) + x * x * x * x + std::sqrt(x + 9); }},
         Branch{"medium m() { density = 1 + keys(p.x, [0, 0], [1, 2], [2, 0]) albedo = 1 }", [](float x) {
                  return 1 + (x <= 0 || x >= 2 ? 0 : x < 1 ? 2 * x : 2 * (2 - x));
                }}));
@@ -155,6 +187,69 @@ TEST(Functions, DoNotSeeTheBodysInputs) {
   const auto medium = text.medium();
   ASSERT_TRUE(medium) << text.messages();
   EXPECT_EQ(run(medium->extinction, {{2, 0, 0}})[0], 5);
+}
+
+// Branches with noise are guarded, and guards change no bit.
+TEST(Guards, StandAroundTheNoiseOfABranch) {
+  const std::string bodies[] = {
+      "medium m() { density = if p.y > 0 then fbm(p) + 1 else 0 albedo = 1 }",
+      "medium m() { var d = 1 if p.x > 0 { d = d + noise(p) } else { d = turbulence(p) + 2 } density = d "
+      "albedo = 1 }",
+      "def f(p) = { if p.x > 1 { return 1 } if p.y > 1 { return 2 + fbm(p) } return 3 + cells(p) } "
+      "medium m() { density = f(p) albedo = (noise(p), 0.5, 1) }",
+      "medium m() { var d = 2 for i in 0..<clamp(4 * p.x, 0, 6) { d = d + fbm(p * 2^i, octaves: 2) / 2^i } "
+      "density = d albedo = 1 }",
+      "medium m() { density = 3 + [noise(p), fbm(p), cells(p)][2 * p.x] albedo = 1 }",
+  };
+  for (const std::string& body : bodies) {
+    BodyText guarded(body), plain(body);
+    const auto with = guarded.medium(),
+               without = compile_medium(plain.context, *plain.body("m"), {.guards = false});
+    ASSERT_TRUE(with && without) << guarded.messages();
+    EXPECT_FALSE(with->full.guards.empty()) << body;
+    EXPECT_TRUE(without->full.guards.empty());
+    std::array<std::vector<float>, 3> p;
+    for (int i = 0; i < 300; ++i) {
+      p[0].push_back(static_cast<float>(i / 40) - 3.0f);
+      p[1].push_back(static_cast<float>(i % 50) * 0.1f - 2.5f);
+      p[2].push_back(0.37f * static_cast<float>(i));
+    }
+    vm::BatchInputs inputs;
+    for (std::size_t k = 0; k < 3; ++k) inputs.lanes[k] = p[k].data();
+    const std::size_t outputs = with->full.outputs.size();
+    std::vector<std::vector<float>> results(2 * outputs, std::vector<float>(300));
+    vm::Machine machine;
+    for (std::size_t way = 0; way < 2; ++way) {
+      std::vector<float*> rows;
+      for (std::size_t k = 0; k < outputs; ++k) rows.push_back(results[way * outputs + k].data());
+      machine.run(way == 0 ? with->full : without->full, inputs, 300, rows);
+    }
+    for (std::size_t k = 0; k < outputs; ++k) EXPECT_EQ(results[k], results[outputs + k]) << body;
+    const auto lanes = machine.lanes_run(with->full);
+    EXPECT_LT(*std::min_element(lanes.begin(), lanes.end()), lanes.front())
+        << "nothing was skipped: " << body;
+  }
+}
+
+TEST(Loops, WhoseEndDiffersNeedALimit) {
+  const std::pair<std::string, std::string> rows[] = {
+      {"medium m() { var d = 0 for i in 0..<p.x { d = d + 1 } density = d albedo = 1 }",
+       "give it a limit, for instance min(n, 8)"},
+      {"medium m() { var d = 0 for i in p.x..9 { d = d + 1 } density = d albedo = 1 }",
+       "only the end of a range may differ"},
+      {"medium m() { var d = 0 for i in 9..max(p.x, min(p.y, 3))..-1 { d = d + 1 } density = d albedo = 1 }",
+       "limit"},
+      {"medium m() { var d = 0 for i in 9..min(p.x, 3)..-1 { d = d + 1 } density = d albedo = 1 }",
+       "counts down"},
+      {"medium m() { for i in 0..<min(p.x, 3) { density = 1 } albedo = 1 }", "set the output after the loop"},
+      {"medium m() { var d = 0 for i in 0..min(p.x, 5000) { d = d + 1 } density = d albedo = 1 }",
+       "a loop of 5001 rounds"},
+  };
+  for (const auto& [body, message] : rows) {
+    BodyText text(body);
+    EXPECT_FALSE(text.medium()) << body;
+    EXPECT_NE(text.messages().find(message), std::string::npos) << body << '\n' << text.messages();
+  }
 }
 
 }  // namespace
