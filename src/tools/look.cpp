@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <memory>
 #include <algorithm>
+#include <memory>
 
 #include "compile/compiled_scene.h"
 #include "compile/geometry.h"
@@ -13,6 +13,7 @@
 #include "tools/profile.h"
 #include "tools/report.h"
 #include "tools/slice.h"
+#include "vm/machine.h"
 
 namespace tyndall::tools {
 namespace {

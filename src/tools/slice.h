@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compile/compiled_scene.h"
+#include "compile/shape_queries.h"
 #include "image/image.h"
 #include "scene/medium.h"
 

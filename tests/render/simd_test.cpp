@@ -17,7 +17,7 @@ using namespace support;
 
 TEST(SimdClasses, RenderTheSamePictureToTheBit) {
   SceneBuilder builder;
-  builder.image(20, 14, 2).step(0.07).bounces(3).perspective({0, 0.3, 4}, {0, 0, 0}, 45).environment(0.3);
+  builder.image(20, 14, 2).step(0.07).bounces(3).perspective({0, 0.3, 4}, {0, 0, 0}, 45).environment(0.3f);
   builder.point_light({2, 2, 2}, Rgb(20));
   MediumColors colors;
   colors.sigma_t = Rgb(3);

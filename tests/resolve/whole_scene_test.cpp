@@ -109,7 +109,7 @@ TEST(Units, AreMetresAndRadians) {
   EXPECT_DOUBLE_EQ(radius(1), 0.02);
   EXPECT_DOUBLE_EQ(radius(2), 1500);
   expect_near(std::get<scene::Sphere>(r.scene.shapes.at(3).shape).center, {0.01, 2, 3});
-  EXPECT_DOUBLE_EQ(r.scene.settings.step, 0.025);
+  EXPECT_DOUBLE_EQ(r.scene.settings.step.metres, 0.025);
   const auto& light = std::get<optics::DistantLight>(r.scene.lights.at(1).light);
   EXPECT_EQ(light.irradiance, Rgb(0.5f, 0.5f, 0.5f));
   EXPECT_NEAR(light.angle.radians, 90 * degree, 1e-15);
