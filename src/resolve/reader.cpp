@@ -144,16 +144,6 @@ void Reader::report_one_of(const std::vector<std::string_view>& names) {
                      {{first, "the other is given here"}});
 }
 
-void Reader::not_yet(std::initializer_list<std::string_view> names) {
-  for (Given& given : given_) {
-    for (const std::string_view name : names) {
-      if (given.taken || symbols_.text(given.item->name.symbol) != name) continue;
-      given.taken = true;
-      error(given.item->name.span, fmt::format("'{}' of '{}' is not available yet", name, keyword_));
-    }
-  }
-}
-
 void Reader::report_unknown(const Given& given, std::string_view hint) {
   // Those that are missing first, then those not given yet.
   std::vector<std::string_view> candidates, known;

@@ -71,8 +71,6 @@ class Reader {
   template <class T>
   T read_valid();
 
-  // Reports an error for each name in `names` that was given, and takes it.
-  void not_yet(std::initializer_list<std::string_view> names);
   // Reports what nothing took, and what is missing: a name that resembles a missing one is taken for it, and
   // reported alone. `hint` is shown when no name resembles it.
   void finish(std::string_view hint = {});

@@ -27,10 +27,8 @@ inline constexpr Choice<render::Distance> distances[] = {
 };
 
 inline constexpr Choice<render::Transmittance> transmittances[] = {
-    {"march", render::Transmittance::march},
-    {"jackknife", render::Transmittance::jackknife},
-    {"ratio", render::Transmittance::ratio},
-    {"residual-ratio", render::Transmittance::residual_ratio},
+    {"march", render::Transmittance::march},   {"jackknife", render::Transmittance::jackknife},
+    {"ratio", render::Transmittance::ratio},   {"residual-ratio", render::Transmittance::residual_ratio},
     {"series", render::Transmittance::series},
 };
 
