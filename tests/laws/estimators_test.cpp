@@ -105,13 +105,13 @@ TEST(JackknifeTransmittance, HasLessBiasThanTheMarch) {
   }
 }
 
-// Where it fails, and so does the march: all of the optical depth in a spike that most marches miss. Of eight
-// places in a march, one in eight hits.
+// Where it fails, and so does the march: all of the optical depth in a spike that most marches miss, though
+// most of the empty space around it is skipped: two marches of eight places each look at fewer.
 TEST(JackknifeTransmittance, FailsOnNarrowSpikes) {
   const KnownDensity spike = transmittance_densities().back();
   ASSERT_EQ(spike.name, "spike");
   const TransmittanceMeasure m = measure_transmittance(spike, Transmittance::jackknife, 1.0 / 16, estimates);
-  EXPECT_NEAR(m.evaluations, 16, 1);
+  EXPECT_LE(m.evaluations, 16);
   EXPECT_GT(m.mean, 10 * std::exp(-spike.tau));
 }
 
