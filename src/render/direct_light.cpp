@@ -58,6 +58,8 @@ void LightStrategies::set(const compile::CompiledScene& world, const March& marc
   if (march.scatters())
     lights_.set(world, march.ray.origin, march.ray.direction, march.scattering_stretches.front().lo,
                 march.scattering_stretches.back().hi);
+  if (method == Method::decoupled && distance == Distance::product && !empty())
+    typical_phase_.set(world, march, brightest_segment(march));
 }
 
 void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed, const Rgb& weight,
@@ -70,7 +72,8 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
   const optics::Light& light = world_->lights[index];
   const auto pivot = optics::sample_pivot(light, point[3], point[4]);
 
-  const DistanceMixture distances(*world_, *march_, *density_, throughput_, distance_, index, pivot, worker);
+  const DistanceMixture distances(light, *march_, *density_, throughput_, distance_, pivot, typical_phase_,
+                                  worker);
   if (!distances.available()) return;
 
   // The strategy is chosen with the light's rescaled number, which leaves dimensions 1 and 2 for t.
@@ -110,7 +113,8 @@ double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t
     const FlightDensities densities = flight_densities({light, pivot, 0}, t, flight_->density, worker);
     return lights_.probability(light) * solid_angle * (densities.aimed + densities.collision);
   }
-  const DistanceMixture distances(*world_, *march_, *density_, throughput_, distance_, light, pivot, worker);
+  const DistanceMixture distances(world_->lights[light], *march_, *density_, throughput_, distance_, pivot,
+                                  typical_phase_, worker);
   return lights_.probability(light) * solid_angle * distances.pdf(segment, t);
 }
 

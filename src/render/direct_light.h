@@ -38,7 +38,8 @@ class LightChoice {
 // A ray with what is needed to say with which density (t, y) would be drawn from it for direct light.
 class LightStrategies {
  public:
-  // Keeps references: the march must stay as it is.
+  // Keeps references: the march must stay as it is, but for its pool, which need not outlive this call for
+  // what `pdf` asks.
   void set(const compile::CompiledScene& world, const March& march, const Rgb& throughput, Method method,
            Distance distance);
   bool empty() const { return !march_->scatters() || lights_.empty(); }
@@ -89,6 +90,7 @@ class LightStrategies {
   const March* march_ = nullptr;
   std::optional<DensityDistribution> density_;
   LightChoice lights_;
+  PhaseMixture typical_phase_;  // of the product
   Rgb throughput_;
   Method method_ = Method::decoupled;
   Distance distance_ = Distance::mis;

@@ -12,7 +12,8 @@ namespace {
 // What product sampling leaves to the density, so that no rough weight of a cell can make a sample too heavy.
 constexpr double product_share = 0.95;
 
-// The segment from which most is scattered stands for the phase functions of all.
+}  // namespace
+
 std::uint32_t brightest_segment(const March& m) {
   std::uint32_t brightest = 0;
   double most = -1;
@@ -22,8 +23,6 @@ std::uint32_t brightest_segment(const March& m) {
   }
   return brightest;
 }
-
-}  // namespace
 
 void reached_stretches(const optics::Light& light, const March& march, std::vector<Intervald>& out) {
   const optics::ReachedParts reached =
@@ -35,16 +34,15 @@ void reached_stretches(const optics::Light& light, const March& march, std::vect
     }
 }
 
-DistanceMixture::DistanceMixture(const compile::CompiledScene& world, const March& march,
+DistanceMixture::DistanceMixture(const optics::Light& light, const March& march,
                                  const DensityDistribution& density, const Rgb& throughput, Distance distance,
-                                 std::uint32_t light, const std::optional<Vec3d>& pivot, Worker& worker)
+                                 const std::optional<Vec3d>& pivot, const PhaseMixture& phase, Worker& worker)
     : density_(density), stretches_(worker.stretches) {
   worker.stretches.clear();
   if (!pivot || distance == Distance::density) return;
-  reached_stretches(world.lights[light], march, worker.stretches);
+  reached_stretches(light, march, worker.stretches);
   if (distance == Distance::product) {
-    worker.phase.set(world, march, brightest_segment(march));
-    worker.product.set(march, throughput, *pivot, stretches_, worker.phase);
+    worker.product.set(march, throughput, *pivot, stretches_, phase);
     product_ = &worker.product;
     if (product_->available()) toward_light_ = density_.available() ? product_share : 1;
     return;

@@ -17,13 +17,17 @@ struct Worker;
 // Appends the parts of the ray that scatter and that the light reaches, in order.
 void reached_stretches(const optics::Light& light, const March& march, std::vector<Intervald>& out);
 
+// The segment from which most is scattered, whose phase functions stand for those of all.
+std::uint32_t brightest_segment(const March& march);
+
 class DistanceMixture {
  public:
-  // For the light of this index, when it is to be aimed at through `pivot` (none for lights without a place).
-  // Uses the worker's scratch: holds until the next one is made.
-  DistanceMixture(const compile::CompiledScene& world, const March& march, const DensityDistribution& density,
-                  const Rgb& throughput, Distance distance, std::uint32_t light,
-                  const std::optional<Vec3d>& pivot, Worker& worker);
+  // For a light that is to be aimed at through `pivot` (none for lights without a place). `phase`, that of a
+  // typical segment, is asked for by the product alone. Uses the worker's scratch: holds until the next one
+  // is made.
+  DistanceMixture(const optics::Light& light, const March& march, const DensityDistribution& density,
+                  const Rgb& throughput, Distance distance, const std::optional<Vec3d>& pivot,
+                  const PhaseMixture& phase, Worker& worker);
   DistanceMixture(const DistanceMixture&) = delete;
 
   bool available() const { return toward_light_ > 0 || density_.available(); }

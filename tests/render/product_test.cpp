@@ -72,7 +72,9 @@ TEST(DistanceMixture, SamplesFollowTheDensity) {
       const Rgb throughput(0.3f, 1, 2);
       const DensityDistribution density(m, throughput);
       const auto pivot = optics::sample_pivot(light, 0.3f, 0.8f);
-      const DistanceMixture mixture(w, m, density, throughput, distance, 0, pivot, worker);
+      PhaseMixture phase;
+      phase.set(w, m, brightest_segment(m));
+      const DistanceMixture mixture(w.lights[0], m, density, throughput, distance, pivot, phase, worker);
       ASSERT_TRUE(mixture.available());
       const std::string what = "strategy " + std::to_string(static_cast<int>(distance)) + ", light " +
                                std::to_string(light.index()) + " at x " + std::to_string(pivot->x);
@@ -119,8 +121,10 @@ TEST(DistanceMixture, ProductIsNeverFarBelowTheDensity) {
     March m;
     march(w, {{0, 0, 0}, {0, 0, -1}, 100}, compile::RayKind::camera, 5, worker, m);
     const DensityDistribution density(m, Rgb(1));
-    const DistanceMixture mixture(w, m, density, Rgb(1), Distance::product, 0,
-                                  optics::sample_pivot(light, 0.3f, 0.8f), worker);
+    PhaseMixture phase;
+    phase.set(w, m, brightest_segment(m));
+    const DistanceMixture mixture(w.lights[0], m, density, Rgb(1), Distance::product,
+                                  optics::sample_pivot(light, 0.3f, 0.8f), phase, worker);
     for (double t = 1.001; t < 7; t += 0.01) {
       const std::uint32_t segment = m.segment_at(t);
       EXPECT_GE(mixture.pdf(segment, t), 0.04 * density.pdf(segment, t)) << t;
