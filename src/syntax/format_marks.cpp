@@ -41,8 +41,9 @@ class Marker {
     return static_cast<std::uint32_t>(found - tokens_.begin());
   }
   std::uint32_t token_before(std::uint32_t end) const {
-    const auto found = std::upper_bound(tokens_.begin(), tokens_.end(), end,
-                                        [](std::uint32_t at, const Token& t) { return at < t.span.end; });
+    // By where they begin: the end of the file is a token that ends where the last one does.
+    const auto found = std::lower_bound(tokens_.begin(), tokens_.end(), end,
+                                        [](const Token& t, std::uint32_t at) { return t.span.begin < at; });
     return static_cast<std::uint32_t>(found - tokens_.begin()) - 1;
   }
 
