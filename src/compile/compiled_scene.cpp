@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/overloaded.h"
+#include "compile/emitters.h"
 #include "compile/geometry.h"
 #include "compile/majorant_grid.h"
 #include "compile/solids.h"
@@ -26,13 +27,18 @@ Vec3d camera_position(const scene::Camera& camera) {
   return std::visit([](const auto& c) { return c.from; }, camera);
 }
 
-optics::Light moved(const optics::Light& light, const Vec3d& offset) {
-  optics::Light out = light;
+optics::Light moved(const scene::Scene& scene, const scene::LightInstance& instance, const Vec3d& offset) {
+  optics::Light out = instance.light;
   std::visit(Overloaded{[&](optics::PointLight& l) { l.position += offset; },
                         [&](optics::SphereLight& l) { l.center += offset; },
                         [&](optics::SpotLight& l) { l.position += offset, l.to += offset; },
                         [&](optics::QuadLight& l) { l.center += offset; },
-                        [&](optics::DiskLight& l) { l.center += offset; }, [](optics::DistantLight&) {},
+                        [&](optics::DiskLight& l) { l.center += offset; },
+                        [&](optics::MeshLight& l) {
+                          l.world_from_shape.t += offset;
+                          l.emitter = emitter_of(scene, *instance.shape, l.world_from_shape);
+                        },
+                        [](optics::DistantLight&) {},
                         [](optics::EnvironmentLight& l) {
                           if (l.radiance.picture[0]) l.sky = std::make_shared<const optics::Sky>(l);
                         }},
@@ -183,7 +189,8 @@ CompiledScene compile(scene::Scene scene) {
   const Transform render_from_world = Transform::translate(-world.origin);
 
   for (const scene::LightInstance& l : world.scene.lights)
-    world.lights.push_back(moved(l.light, -world.origin));
+    world.lights.push_back(moved(world.scene, l, -world.origin));
+  const std::vector<std::uint32_t> glows = add_glowing_shapes(world.scene, render_from_world, world.lights);
 
   for (const scene::Medium& m : world.scene.media) world.media.push_back(compiled(m));
   const std::vector<scene::Volume> volumes = scene::all_volumes(world.scene);
@@ -204,8 +211,8 @@ CompiledScene compile(scene::Scene scene) {
     world.materials.push_back(compiled(m, world.scene.time));
 
   world.features = features_of(world);
-  world.geometry =
-      std::make_unique<Geometry>(world.scene, world.features, world.origin, world.lights, world.volumes);
+  world.geometry = std::make_unique<Geometry>(world.scene, world.features, world.origin, world.lights, glows,
+                                              world.volumes);
   if (world.features.glass) add_solids(world);
   if (world.features.layered_surfaces)
     world.albedo_tables = std::make_unique<const optics::AlbedoTables>(rough_etas(world));

@@ -41,6 +41,7 @@ struct SurfaceHit {
   std::uint32_t shape = no_index;     // index of scene.shapes; no_index inside placed objects
   std::uint32_t material = no_index;  // index of scene.materials, or no_index when a light was hit
   std::uint32_t light = no_index;     // index of lights when it is a light's surface
+  std::uint32_t glow = no_index;      // index of lights when the surface's material glows and is sampled
 };
 
 // A ray's stay in one volume, clipped to the ray.
@@ -114,7 +115,8 @@ class CompiledScene {
   std::vector<CompiledMaterial> materials;
   std::unique_ptr<const optics::AlbedoTables> albedo_tables;  // when there are layered surfaces
   std::vector<CompiledVolume> volumes;
-  std::vector<optics::Light> lights;  // scene.lights, moved to render space
+  // scene.lights, moved to render space; then shapes whose material glows alike everywhere.
+  std::vector<optics::Light> lights;
   std::unique_ptr<Geometry> geometry;
   std::unique_ptr<const Solids> solids;              // when Features::nested_glass
   std::vector<std::unique_ptr<MajorantGrid>> grids;  // of volumes whose medium varies; see grid_walk.h

@@ -10,7 +10,8 @@ namespace tyndall::compile {
 namespace {
 
 // The surface of an area light, in the space of its numbers; nothing for lights without one.
-std::optional<scene::ShapeInstance> light_surface(const optics::Light& light) {
+std::optional<scene::ShapeInstance> light_surface(const scene::LightInstance& instance,
+                                                  const optics::Light& light) {
   scene::ShapeInstance surface;
   const bool has_surface = std::visit(Overloaded{[&](const optics::SphereLight& l) {
                                                    surface.shape = scene::Sphere{l.center, l.radius};
@@ -27,6 +28,12 @@ std::optional<scene::ShapeInstance> light_surface(const optics::Light& light) {
                                                    surface.visible = l.visible;
                                                    return true;
                                                  },
+                                                 [&](const optics::MeshLight& l) {
+                                                   surface.shape = *instance.shape;
+                                                   surface.world_from_object = l.world_from_shape;
+                                                   surface.visible = l.visible;
+                                                   return true;
+                                                 },
                                                  [](const auto&) { return false; }},
                                       light);
   return has_surface ? std::optional(surface) : std::nullopt;
@@ -35,7 +42,8 @@ std::optional<scene::ShapeInstance> light_surface(const optics::Light& light) {
 }  // namespace
 
 Geometry::Geometry(const scene::Scene& scene, const Features& features, const Vec3d& origin,
-                   std::span<const optics::Light> lights, std::span<const CompiledVolume> volumes)
+                   std::span<const optics::Light> lights, std::span<const std::uint32_t> glows,
+                   std::span<const CompiledVolume> volumes)
     : meshes_(scene.meshes.begin(), scene.meshes.end()),
       world_(meshes_, features.normals),
       volumes_(volumes),
@@ -50,11 +58,11 @@ Geometry::Geometry(const scene::Scene& scene, const Features& features, const Ve
     group.finish();
     prototypes_.push_back(std::move(group));
   }
-  world_.add(scene.shapes, origin);
+  world_.add(scene.shapes, origin, glows);
   world_.add(scene.instances, prototypes_, origin);
   light_surfaces_.reserve(lights.size());
-  for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    const auto surface = light_surface(lights[i]);
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const auto surface = light_surface(scene.lights[i], lights[i]);
     if (!surface) continue;
     light_surfaces_.push_back(*surface);
     world_.add_light(light_surfaces_.back(), i);
@@ -89,6 +97,7 @@ std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) co
     return hit;
   }
   hit.material = found->material.index;
+  hit.glow = found->glow;
   if (found->surface) hit.shape = static_cast<std::uint32_t>(found->surface - first_shape_);
   return hit;
 }

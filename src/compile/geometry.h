@@ -15,9 +15,11 @@ namespace tyndall::compile {
 class Geometry {
  public:
   // Keeps pointers to the elements of the scene's vectors and of `volumes`, which must not move (moving the
-  // vectors themselves is fine). Lights are in render space, whose zero is `origin`.
+  // vectors themselves is fine). Lights are in render space, whose zero is `origin`. `glows`: the light of
+  // each of the scene's shapes, or empty.
   Geometry(const scene::Scene& scene, const Features& features, const Vec3d& origin,
-           std::span<const optics::Light> lights, std::span<const CompiledVolume> volumes);
+           std::span<const optics::Light> lights, std::span<const std::uint32_t> glows,
+           std::span<const CompiledVolume> volumes);
 
   std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind) const;
   bool occluded(const Ray& ray, std::uint32_t target_light) const;

@@ -37,15 +37,17 @@ Transform Group::group_from_object(const Transform& placed, std::uint32_t light)
   return out;
 }
 
-void Group::add(std::span<const scene::ShapeInstance> surfaces, const Vec3d& offset) {
+void Group::add(std::span<const scene::ShapeInstance> surfaces, const Vec3d& offset,
+                std::span<const std::uint32_t> glows) {
   offset_ = offset;
   surfaces_.reserve(surfaces_.size() + surfaces.size());
-  for (const scene::ShapeInstance& s : surfaces)
-    surfaces_.push_back({inverse_of(group_from_object(s.world_from_object, no_index)), &s, no_index});
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    surfaces_.push_back({inverse_of(group_from_object(surfaces[i].world_from_object, no_index)), &surfaces[i],
+                         no_index, glows.empty() ? no_index : glows[i]});
 }
 
 void Group::add_light(const scene::ShapeInstance& surface, std::uint32_t light) {
-  surfaces_.push_back({inverse_of(surface.world_from_object), &surface, light});
+  surfaces_.push_back({inverse_of(surface.world_from_object), &surface, light, no_index});
 }
 
 void Group::add(std::span<const scene::Instance> instances, std::span<const Group> prototypes,
@@ -153,6 +155,7 @@ std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) co
                  is_sheet(s.surface->shape, meshes_),
                  s.surface->material,
                  s.light,
+                 s.glow,
                  s.surface};
     if (keeps_axes_)
       hit.normal_axes = {to_group.normal({1, 0, 0}), to_group.normal({0, 1, 0}), to_group.normal({0, 0, 1})};

@@ -20,6 +20,7 @@ struct PlacedSurface {
   Transform object_from_group;
   const scene::ShapeInstance* surface = nullptr;
   std::uint32_t light = no_index;  // of the surface of an area light
+  std::uint32_t glow = no_index;   // the light that its glowing material makes it
 };
 
 // The nearest hit in a group's space.
@@ -32,7 +33,7 @@ struct GroupHit {
   std::array<Vec3d, 3> normal_axes{};  // images of normals along the object's axes, where kept
   bool sheet = false;                  // of a shape without an inside
   scene::MaterialId material;          // invalid: that of the instance
-  std::uint32_t light = no_index;
+  std::uint32_t light = no_index, glow = no_index;
   const scene::ShapeInstance* surface = nullptr;  // of the group's own; null: an instance's
 };
 
@@ -49,7 +50,9 @@ class Group {
 
   // Adds things; a group is ready for rays after finish(). The scene's elements must stay where they are.
   // `offset` is the group's zero in the space that the things' transforms lead to.
-  void add(std::span<const scene::ShapeInstance> surfaces, const Vec3d& offset = {});
+  // `glows`: for each surface the light that its material makes it, or empty.
+  void add(std::span<const scene::ShapeInstance> surfaces, const Vec3d& offset = {},
+           std::span<const std::uint32_t> glows = {});
   void add_light(const scene::ShapeInstance& surface, std::uint32_t light);
   void add(std::span<const scene::Instance> instances, std::span<const Group> prototypes,
            const Vec3d& offset = {});

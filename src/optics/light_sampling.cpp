@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "base/numerics.h"
 #include "base/overloaded.h"
+#include "optics/emitter.h"
 #include "optics/sky.h"
 
 namespace tyndall::optics {
@@ -34,14 +35,14 @@ Rgb disc_radiance(const DistantLight& light) {
   return *light.irradiance * static_cast<float>(1 / (pi * sqr(std::sin(light.angle.radians / 2))));
 }
 
-std::optional<LightSample> sample(const PointLight& light, const Vec3d& x, const Vec3d&, float, float) {
+std::optional<LightSample> sample(const PointLight& light, const Vec3d& x, const Pivot&, float, float) {
   const Vec3d to = light.position - x;
   const double distance = length(to);
   if (!(distance > 0)) return std::nullopt;
   return LightSample{to / distance, distance, intensity(light) * static_cast<float>(1 / sqr(distance)), 0};
 }
 
-std::optional<LightSample> sample(const SpotLight& light, const Vec3d& x, const Vec3d&, float, float) {
+std::optional<LightSample> sample(const SpotLight& light, const Vec3d& x, const Pivot&, float, float) {
   const Vec3d to = light.position - x;
   const double distance = length(to);
   if (!(distance > 0)) return std::nullopt;
@@ -52,7 +53,7 @@ std::optional<LightSample> sample(const SpotLight& light, const Vec3d& x, const 
   return LightSample{w, distance, spot.intensity * static_cast<float>(share / sqr(distance)), 0};
 }
 
-std::optional<LightSample> sample(const SphereLight& light, const Vec3d& x, const Vec3d&, float u0,
+std::optional<LightSample> sample(const SphereLight& light, const Vec3d& x, const Pivot&, float u0,
                                   float u1) {
   const Vec3d to = light.center - x;
   const double d = length(to), sin_squared = sqr(light.radius / d);
@@ -81,11 +82,29 @@ std::optional<LightSample> sample_flat(const Vec3d& area_vector, const Rgb& radi
 Vec3d area_vector(const QuadLight& light) { return cross(light.u, light.v) * 4.0; }
 Vec3d area_vector(const DiskLight& light) { return normalize(light.normal) * (pi * sqr(light.radius)); }
 
-std::optional<LightSample> sample(const QuadLight& light, const Vec3d& x, const Vec3d& pivot, float, float) {
-  return sample_flat(area_vector(light), radiance(light), x, pivot);
+std::optional<LightSample> sample(const QuadLight& light, const Vec3d& x, const Pivot& pivot, float, float) {
+  return sample_flat(area_vector(light), radiance(light), x, pivot.position);
 }
-std::optional<LightSample> sample(const DiskLight& light, const Vec3d& x, const Vec3d& pivot, float, float) {
-  return sample_flat(area_vector(light), radiance(light), x, pivot);
+std::optional<LightSample> sample(const DiskLight& light, const Vec3d& x, const Pivot& pivot, float, float) {
+  return sample_flat(area_vector(light), radiance(light), x, pivot.position);
+}
+
+std::optional<LightSample> sample(const MeshLight& light, const Vec3d& x, const Pivot& y, float, float) {
+  if (!light.emitter || !(light.emitter->area() > 0)) return std::nullopt;
+  const Vec3d to = y.position - x;
+  const double d2 = length_squared(to), distance = std::sqrt(d2);
+  if (!(distance > 0)) return std::nullopt;
+  const Vec3d w = to / distance;
+  const double facing = light.both_sides ? std::abs(dot(y.normal, w)) : -dot(y.normal, w);
+  if (!(facing > 0)) return std::nullopt;
+  const double pdf = light.emitter->pdf_area(y.normal) * d2 / facing;
+  return LightSample{w, distance, radiance(light) * static_cast<float>(1 / pdf), pdf};
+}
+
+double pdf_mesh(const MeshLight& light, const Vec3d& normal, const Vec3d& x, const Vec3d& direction,
+                const Vec3d& y) {
+  const double facing = light.both_sides ? std::abs(dot(normal, direction)) : -dot(normal, direction);
+  return light.emitter && facing > 0 ? light.emitter->pdf_area(normal) * length_squared(y - x) / facing : 0.0;
 }
 
 double pdf_flat(double area, const Vec3d& normal, const Vec3d& x, const Vec3d& direction, const Vec3d& y) {
@@ -93,7 +112,7 @@ double pdf_flat(double area, const Vec3d& normal, const Vec3d& x, const Vec3d& d
   return projected_area > 0 ? length_squared(y - x) / projected_area : 0.0;
 }
 
-std::optional<LightSample> sample(const DistantLight& light, const Vec3d&, const Vec3d&, float u0, float u1) {
+std::optional<LightSample> sample(const DistantLight& light, const Vec3d&, const Pivot&, float u0, float u1) {
   const Vec3d axis = -normalize(light.direction);
   if (light.angle.radians == 0) return LightSample{axis, infinity, *light.irradiance, 0};
   const double m_max = disc_one_minus_cos(light), solid_angle = cone_solid_angle(m_max);
@@ -101,7 +120,7 @@ std::optional<LightSample> sample(const DistantLight& light, const Vec3d&, const
                      disc_radiance(light) * static_cast<float>(solid_angle), 1 / solid_angle};
 }
 
-std::optional<LightSample> sample(const EnvironmentLight& light, const Vec3d&, const Vec3d&, float u0,
+std::optional<LightSample> sample(const EnvironmentLight& light, const Vec3d&, const Pivot&, float u0,
                                   float u1) {
   if (!light.sky || !(light.sky->total() > 0)) return std::nullopt;
   const Sky::Drawn drawn = light.sky->sample(u0, u1);
@@ -182,28 +201,36 @@ bool is_delta(const Light& light) {
                     light);
 }
 
-std::optional<Vec3d> sample_pivot(const Light& light, float u0, float u1) {
-  return std::visit(Overloaded{[](const PointLight& l) -> std::optional<Vec3d> { return l.position; },
-                               [](const SpotLight& l) -> std::optional<Vec3d> { return l.position; },
-                               [](const SphereLight& l) -> std::optional<Vec3d> { return l.center; },
-                               [&](const QuadLight& l) -> std::optional<Vec3d> {
-                                 return l.center + l.u * (2.0 * u0 - 1) + l.v * (2.0 * u1 - 1);
-                               },
-                               [&](const DiskLight& l) -> std::optional<Vec3d> {
-                                 const double r = l.radius * std::sqrt(double{u0}), phi = 2 * pi * u1;
-                                 const auto frame = Frame<double>::around(normalize(l.normal));
-                                 return l.center + frame.x * (r * std::cos(phi)) +
-                                        frame.y * (r * std::sin(phi));
-                               },
-                               [](const auto&) -> std::optional<Vec3d> { return std::nullopt; }},
-                    light);
+std::optional<Pivot> sample_pivot(const Light& light, float u0, float u1) {
+  using Result = std::optional<Pivot>;
+  return std::visit(
+      Overloaded{[](const PointLight& l) -> Result { return Pivot{l.position}; },
+                 [](const SpotLight& l) -> Result { return Pivot{l.position}; },
+                 [](const SphereLight& l) -> Result { return Pivot{l.center}; },
+                 [&](const QuadLight& l) -> Result {
+                   return Pivot{l.center + l.u * (2.0 * u0 - 1) + l.v * (2.0 * u1 - 1)};
+                 },
+                 [&](const DiskLight& l) -> Result {
+                   const double r = l.radius * std::sqrt(double{u0}), phi = 2 * pi * u1;
+                   const auto frame = Frame<double>::around(normalize(l.normal));
+                   return Pivot{l.center + frame.x * (r * std::cos(phi)) + frame.y * (r * std::sin(phi))};
+                 },
+                 [&](const MeshLight& l) -> Result {
+                   if (!l.emitter || !(l.emitter->area() > 0)) return std::nullopt;
+                   const Emitter::Point y = l.emitter->sample(u0, u1);
+                   return Pivot{y.position, y.normal};
+                 },
+                 [](const DistantLight&) -> Result { return std::nullopt; },
+                 [](const EnvironmentLight&) -> Result { return std::nullopt; }},
+      light);
 }
 
 bool pivot_on_surface(const Light& light) {
-  return std::holds_alternative<QuadLight>(light) || std::holds_alternative<DiskLight>(light);
+  return std::holds_alternative<QuadLight>(light) || std::holds_alternative<DiskLight>(light) ||
+         std::holds_alternative<MeshLight>(light);
 }
 
-std::optional<LightSample> sample_light(const Light& light, const Vec3d& x, const Vec3d& pivot, float u0,
+std::optional<LightSample> sample_light(const Light& light, const Vec3d& x, const Pivot& pivot, float u0,
                                         float u1) {
   return std::visit([&](const auto& l) { return sample(l, x, pivot, u0, u1); }, light);
 }
@@ -219,6 +246,7 @@ double pdf_light(const Light& light, const Vec3d& x, const Vec3d& direction, con
           },
           [&](const QuadLight& l) { return pdf_flat(4 * length(cross(l.u, l.v)), normal, x, direction, y); },
           [&](const DiskLight& l) { return pdf_flat(pi * sqr(l.radius), normal, x, direction, y); },
+          [&](const MeshLight& l) { return pdf_mesh(l, normal, x, direction, y); },
           [&](const DistantLight& l) {
             return l.angle.radians > 0 ? 1 / cone_solid_angle(disc_one_minus_cos(l)) : 0.0;
           },
@@ -227,11 +255,13 @@ double pdf_light(const Light& light, const Vec3d& x, const Vec3d& direction, con
 }
 
 Rgb emitted(const Light& light, const Vec3d& direction, const Vec3d& normal) {
-  if (dot(direction, normal) >= 0) return {};
+  const auto* mesh = std::get_if<MeshLight>(&light);
+  if (dot(direction, normal) >= 0 && !(mesh && mesh->both_sides)) return {};
   return std::visit(
       Overloaded{[](const SphereLight& l) { return radiance(l); },
                  [](const QuadLight& l) { return radiance(l); },
-                 [](const DiskLight& l) { return radiance(l); }, [](const auto&) { return Rgb{}; }},
+                 [](const DiskLight& l) { return radiance(l); },
+                 [](const MeshLight& l) { return radiance(l); }, [](const auto&) { return Rgb{}; }},
       light);
 }
 
@@ -246,13 +276,17 @@ Rgb radiance_from_infinity(const Light& light, const Vec3d& direction) {
                     light);
 }
 
-ReachedParts reached_parts(const Light& light, const Vec3d& origin, const Vec3d& direction, double t_max) {
+ReachedParts reached_parts(const Light& light, const Pivot& pivot, const Vec3d& origin,
+                           const Vec3d& direction, double t_max) {
   ReachedParts all{{Intervald{0, t_max}, {}}, 1};
   return std::visit(
       Overloaded{
           [&](const QuadLight& l) { return in_front(l.center, cross(l.u, l.v), origin, direction, t_max); },
           [&](const DiskLight& l) { return in_front(l.center, l.normal, origin, direction, t_max); },
           [&](const SpotLight& l) { return in_cone(l, origin, direction, t_max); },
+          [&](const MeshLight& l) {
+            return l.both_sides ? all : in_front(pivot.position, pivot.normal, origin, direction, t_max);
+          },
           [&](const SphereLight& l) {
             const double along = dot(l.center - origin, direction);
             const double half2 = sqr(l.radius) - length_squared(origin + direction * along - l.center);
@@ -270,31 +304,36 @@ ReachedParts reached_parts(const Light& light, const Vec3d& origin, const Vec3d&
 
 double importance(const Light& light, const Vec3d& origin, const Vec3d& direction, double t0, double t1) {
   return std::visit(
-      Overloaded{[&](const PointLight& l) {
-                   return nearest_irradiance(mean(intensity(l)), 0, l.position, origin, direction, t0, t1);
-                 },
-                 [&](const SpotLight& l) {
-                   const ReachedParts reached = in_cone(l, origin, direction, t1);
-                   if (t0 < t1 && (reached.count == 0 || reached.parts[reached.count - 1].hi <= t0))
-                     return 0.0;
-                   return nearest_irradiance(mean(cone(l).intensity), 0, l.position, origin, direction, t0,
-                                             t1);
-                 },
-                 [&](const SphereLight& l) {
-                   const double i = mean(radiance(l)) * pi * sqr(l.radius);
-                   return nearest_irradiance(i, l.radius, l.center, origin, direction, t0, t1);
-                 },
-                 [&](const QuadLight& l) {
-                   const double i = mean(radiance(l)) * 4 * length(cross(l.u, l.v));
-                   const double radius = std::sqrt(length_squared(l.u) + length_squared(l.v));
-                   return nearest_irradiance(i, radius, l.center, origin, direction, t0, t1);
-                 },
-                 [&](const DiskLight& l) {
-                   const double i = mean(radiance(l)) * pi * sqr(l.radius);
-                   return nearest_irradiance(i, l.radius, l.center, origin, direction, t0, t1);
-                 },
-                 [&](const DistantLight& l) { return mean(*l.irradiance); },
-                 [](const EnvironmentLight& l) { return l.sky ? l.sky->total() : 0.0; }},
+      Overloaded{
+          [&](const PointLight& l) {
+            return nearest_irradiance(mean(intensity(l)), 0, l.position, origin, direction, t0, t1);
+          },
+          [&](const SpotLight& l) {
+            const ReachedParts reached = in_cone(l, origin, direction, t1);
+            if (t0 < t1 && (reached.count == 0 || reached.parts[reached.count - 1].hi <= t0)) return 0.0;
+            return nearest_irradiance(mean(cone(l).intensity), 0, l.position, origin, direction, t0, t1);
+          },
+          [&](const SphereLight& l) {
+            const double i = mean(radiance(l)) * pi * sqr(l.radius);
+            return nearest_irradiance(i, l.radius, l.center, origin, direction, t0, t1);
+          },
+          [&](const QuadLight& l) {
+            const double i = mean(radiance(l)) * 4 * length(cross(l.u, l.v));
+            const double radius = std::sqrt(length_squared(l.u) + length_squared(l.v));
+            return nearest_irradiance(i, radius, l.center, origin, direction, t0, t1);
+          },
+          [&](const DiskLight& l) {
+            const double i = mean(radiance(l)) * pi * sqr(l.radius);
+            return nearest_irradiance(i, l.radius, l.center, origin, direction, t0, t1);
+          },
+          [&](const MeshLight& l) {
+            if (!l.emitter || !(l.emitter->area() > 0)) return 0.0;
+            // A convex shape shows about a quarter of its area to any side.
+            const double i = mean(radiance(l)) * l.emitter->area() / 2;
+            return nearest_irradiance(i, l.emitter->radius(), l.emitter->center(), origin, direction, t0, t1);
+          },
+          [&](const DistantLight& l) { return mean(*l.irradiance); },
+          [](const EnvironmentLight& l) { return l.sky ? l.sky->total() : 0.0; }},
       light);
 }
 

@@ -20,12 +20,16 @@ struct LightSample {
   double pdf_solid_angle = 0;  // of `direction`; 0 for lights of no extent (point, distant with angle 0)
 };
 
+// The point about which equi-angular sampling turns; of mesh lights with the unit normal there.
+struct Pivot {
+  Vec3d position, normal{};
+};
+
 // True when no ray can hit the light: points, and distant lights of angle 0.
 bool is_delta(const Light& light);
 
-// The point about which equi-angular sampling turns: drawn on a quad or disk, the centre of a sphere, the
-// point or spot itself. Nothing for lights without a place (distant, environment).
-std::optional<Vec3d> sample_pivot(const Light& light, float u0, float u1);
+// Drawn on a quad, disk or mesh, the centre of a sphere, the point or spot itself. Nothing for lights without a place (distant, environment).
+std::optional<Pivot> sample_pivot(const Light& light, float u0, float u1);
 // True when the pivot is the point of the light's surface that sample_light then aims at.
 bool pivot_on_surface(const Light& light);
 
@@ -33,7 +37,7 @@ bool pivot_on_surface(const Light& light);
 // cone of a sphere, over the disc of a distant light. Nothing when the light does not reach x (behind a quad,
 // inside a sphere, outside a cone). Environments of one colour are gathered where rays end and are never
 // drawn: nothing.
-std::optional<LightSample> sample_light(const Light& light, const Vec3d& x, const Vec3d& pivot, float u0,
+std::optional<LightSample> sample_light(const Light& light, const Vec3d& x, const Pivot& pivot, float u0,
                                         float u1);
 
 // Density per solid angle with which sample_light draws, from x, a direction that meets the light at `y` (of
@@ -53,7 +57,9 @@ struct ReachedParts {
   Intervald parts[2];
   int count = 0;
 };
-ReachedParts reached_parts(const Light& light, const Vec3d& origin, const Vec3d& direction, double t_max);
+// Of a mesh light: the front side of its surface at the pivot.
+ReachedParts reached_parts(const Light& light, const Pivot& pivot, const Vec3d& origin,
+                           const Vec3d& direction, double t_max);
 
 // A rough measure of what the light sends to the ray's stretch [t0, t1): for choosing among lights. >= 0.
 double importance(const Light& light, const Vec3d& origin, const Vec3d& direction, double t0, double t1);

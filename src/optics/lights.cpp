@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/numerics.h"
+#include "optics/emitter.h"
 
 namespace tyndall::optics {
 
@@ -26,6 +27,11 @@ Rgb radiance(const QuadLight& light) {
 
 Rgb radiance(const DiskLight& light) {
   return radiance_of(light.radiance, light.power, pi * sqr(light.radius));
+}
+
+Rgb radiance(const MeshLight& light) {
+  if (!light.emitter || !(light.emitter->area() > 0)) return {};
+  return radiance_of(light.radiance, light.power, light.emitter->area());
 }
 
 Rgb intensity(const PointLight& light) {

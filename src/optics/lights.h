@@ -111,6 +111,27 @@ struct DiskLight {
   }
 };
 
+class Emitter;
+
+// Any shape, which shines from its outer or front side. The shape itself is the scene's
+// (scene::LightInstance).
+struct MeshLight {
+  static constexpr std::string_view keyword = "light mesh";
+  std::optional<Rgb> power, radiance;
+  bool visible = true;
+  Transform world_from_shape{};
+  bool both_sides = false;                   // of shapes whose material glows
+  std::shared_ptr<const Emitter> emitter{};  // the shape where it stands, made by `compile`
+  template <class F>
+  static void fields(F&& field) {
+    field(&MeshLight::power,
+          FieldInfo{"power", "radiant flux [W]", Quantity::color, optional_field, "power"});
+    field(&MeshLight::radiance,
+          FieldInfo{"radiance", "emitted radiance [W/m²/sr]", Quantity::color, optional_field, "power"});
+    field(&MeshLight::visible, FieldInfo{"visible", "whether the camera sees it", Quantity::plain});
+  }
+};
+
 struct DistantLight {
   static constexpr std::string_view keyword = "light distant";
   Vec3d direction;  // of travel
@@ -152,13 +173,14 @@ struct EnvironmentLight {
   }
 };
 
-using Light =
-    std::variant<PointLight, SpotLight, SphereLight, QuadLight, DiskLight, DistantLight, EnvironmentLight>;
+using Light = std::variant<PointLight, SpotLight, SphereLight, QuadLight, DiskLight, MeshLight, DistantLight,
+                           EnvironmentLight>;
 
 // Emitted radiance of the area lights, whichever way it was given [W/m²/sr].
 Rgb radiance(const SphereLight& light);
 Rgb radiance(const QuadLight& light);
 Rgb radiance(const DiskLight& light);
+Rgb radiance(const MeshLight& light);  // compiled: its area must be known
 // Intensity of a point light [W/sr].
 Rgb intensity(const PointLight& light);
 

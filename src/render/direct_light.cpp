@@ -17,9 +17,15 @@ constexpr double shadow_end = 1 - 0x1p-40;
 
 }  // namespace
 
-ShadowRay shadow_ray(const Vec3d& from, const optics::LightSample& light, std::uint32_t index,
-                     const Rgb& contribution, std::uint32_t seed) {
-  return {{from, light.direction, light.distance * shadow_end}, index, contribution, seed};
+// What a mesh light or a glowing shape hides of itself is dark, so its surface is not skipped: the ray ends
+// before the point it aims at.
+ShadowRay shadow_ray(const compile::CompiledScene& world, const Vec3d& from, const optics::LightSample& light,
+                     std::uint32_t index, const Rgb& contribution, std::uint32_t seed) {
+  const double end = light.distance * shadow_end;
+  if (!std::holds_alternative<optics::MeshLight>(world.lights[index]))
+    return {{from, light.direction, end}, index, contribution, seed};
+  const double margin = 2 * compile::surface_offset(world, from + light.direction * light.distance);
+  return {{from, light.direction, std::max(end - margin, 0.0)}, compile::no_index, contribution, seed};
 }
 
 void LightChoice::set(const compile::CompiledScene& world, const Vec3d& origin, const Vec3d& direction,
@@ -83,7 +89,7 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
   if (!(pdf_t > 0)) return;
 
   const Vec3d x = march_->ray.origin + march_->ray.direction * t;
-  const auto drawn = optics::sample_light(light, x, pivot.value_or(Vec3d{}), point[3], point[4]);
+  const auto drawn = optics::sample_light(light, x, pivot.value_or(optics::Pivot{}), point[3], point[4]);
   if (!drawn) return;
   worker.phase.set(*world_, *march_, segment);
   const float m = optics::one_minus_cos(Vec3f(march_->ray.direction), Vec3f(drawn->direction));
@@ -96,7 +102,8 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
   const Rgb contribution = weight * march_->sigma_s_at(segment) * march_->transmittance_at(segment, t) *
                            worker.phase.eval(m) * drawn->radiance_over_pdf *
                            static_cast<float>(share_of_c / (choice * pdf_t * samples));
-  if (!is_black(contribution)) worker.shadows.add(shadow_ray(x, *drawn, index, contribution, shadow_seed));
+  if (!is_black(contribution))
+    worker.shadows.add(shadow_ray(*world_, x, *drawn, index, contribution, shadow_seed));
 }
 
 double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t, const Vec3d& direction,
@@ -106,8 +113,9 @@ double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t
   const double solid_angle = optics::pdf_light(world_->lights[light], x, direction, y, normal);
   if (solid_angle == 0) return 0;
   // The pivot that would lead to y: y itself on a flat light, the centre of a sphere.
+  // The pivot that would lead to y: y itself on a flat light, the centre of a sphere.
   auto pivot = optics::sample_pivot(world_->lights[light], 0.5f, 0.5f);
-  if (pivot && optics::pivot_on_surface(world_->lights[light])) pivot = y;
+  if (pivot && optics::pivot_on_surface(world_->lights[light])) pivot = optics::Pivot{y, normal};
   if (method_ == Method::brute_force) return lights_.probability(light) * solid_angle / step_at(segment);
   if (flies(method_)) {
     const FlightDensities densities = flight_densities({light, pivot, 0}, t, flight_->density, worker);
@@ -125,7 +133,7 @@ void sample_surface_light(const compile::CompiledScene& world, const SurfacePoin
   const std::uint32_t index = lights.sample(u_light);
   const optics::Light& light = world.lights[index];
   const Vec3d& x = surface.transmits ? surface.position : surface.offset_position;
-  const Vec3d pivot = optics::sample_pivot(light, point[3], point[4]).value_or(Vec3d{});
+  const optics::Pivot pivot = optics::sample_pivot(light, point[3], point[4]).value_or(optics::Pivot{});
   const auto drawn = optics::sample_light(light, x, pivot, point[3], point[4]);
   if (!drawn) return;
   const Rgb scattered = surface.value(drawn->direction);
@@ -137,7 +145,8 @@ void sample_surface_light(const compile::CompiledScene& world, const SurfacePoin
   const Rgb contribution =
       weight * scattered * drawn->radiance_over_pdf * static_cast<float>(share / (choice * samples));
   if (!is_black(contribution))
-    worker.shadows.add(shadow_ray(surface.start(drawn->direction), *drawn, index, contribution, shadow_seed));
+    worker.shadows.add(
+        shadow_ray(world, surface.start(drawn->direction), *drawn, index, contribution, shadow_seed));
 }
 
 }  // namespace tyndall::render

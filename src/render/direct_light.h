@@ -66,7 +66,7 @@ class LightStrategies {
   // A light, and how it is seen from the ray.
   struct Aim {
     std::uint32_t light = 0;
-    std::optional<Vec3d> pivot;
+    std::optional<optics::Pivot> pivot;
     double choice = 0;  // probability of the light
   };
   Aim choose(const SobolPoint& point, float& u_rest) const;
@@ -98,8 +98,8 @@ class LightStrategies {
 };
 
 // The shadow ray from a point to what was drawn of a light.
-ShadowRay shadow_ray(const Vec3d& from, const optics::LightSample& light, std::uint32_t index,
-                     const Rgb& contribution, std::uint32_t seed);
+ShadowRay shadow_ray(const compile::CompiledScene& world, const Vec3d& from, const optics::LightSample& light,
+                     std::uint32_t index, const Rgb& contribution, std::uint32_t seed);
 
 // Adds the shadow ray of one light sample on a surface. Strategy C is here the surface's own sampling.
 void sample_surface_light(const compile::CompiledScene& world, const SurfacePoint& surface,

@@ -24,9 +24,10 @@ std::uint32_t brightest_segment(const March& m) {
   return brightest;
 }
 
-void reached_stretches(const optics::Light& light, const March& march, std::vector<Intervald>& out) {
+void reached_stretches(const optics::Light& light, const optics::Pivot& pivot, const March& march,
+                       std::vector<Intervald>& out) {
   const optics::ReachedParts reached =
-      optics::reached_parts(light, march.ray.origin, march.ray.direction, march.ray.t_max);
+      optics::reached_parts(light, pivot, march.ray.origin, march.ray.direction, march.ray.t_max);
   for (const Intervald& stretch : march.scattering_stretches)
     for (int k = 0; k < reached.count; ++k) {
       const Intervald part = stretch.clipped_to(reached.parts[k]);
@@ -36,18 +37,19 @@ void reached_stretches(const optics::Light& light, const March& march, std::vect
 
 DistanceMixture::DistanceMixture(const optics::Light& light, const March& march,
                                  const DensityDistribution& density, const Rgb& throughput, Distance distance,
-                                 const std::optional<Vec3d>& pivot, const PhaseMixture& phase, Worker& worker)
+                                 const std::optional<optics::Pivot>& pivot, const PhaseMixture& phase,
+                                 Worker& worker)
     : density_(density), stretches_(worker.stretches) {
   worker.stretches.clear();
   if (!pivot || distance == Distance::density) return;
-  reached_stretches(light, march, worker.stretches);
+  reached_stretches(light, *pivot, march, worker.stretches);
   if (distance == Distance::product) {
-    worker.product.set(march, throughput, *pivot, stretches_, phase);
+    worker.product.set(march, throughput, pivot->position, stretches_, phase);
     product_ = &worker.product;
     if (product_->available()) toward_light_ = density_.available() ? product_share : 1;
     return;
   }
-  equiangular_.emplace(march.ray.origin, march.ray.direction, *pivot, stretches_);
+  equiangular_.emplace(march.ray.origin, march.ray.direction, pivot->position, stretches_);
   if (equiangular_->available()) toward_light_ = density_.available() && distance == Distance::mis ? 0.5 : 1;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "compile/compiled_scene.h"
+#include "optics/light_sampling.h"
 #include "render/equiangular.h"
 #include "render/march.h"
 #include "render/product.h"
@@ -15,7 +16,8 @@ namespace tyndall::render {
 struct Worker;
 
 // Appends the parts of the ray that scatter and that the light reaches, in order.
-void reached_stretches(const optics::Light& light, const March& march, std::vector<Intervald>& out);
+void reached_stretches(const optics::Light& light, const optics::Pivot& pivot, const March& march,
+                       std::vector<Intervald>& out);
 
 // The segment from which most is scattered, whose phase functions stand for those of all.
 std::uint32_t brightest_segment(const March& march);
@@ -26,7 +28,7 @@ class DistanceMixture {
   // typical segment, is asked for by the product alone. Uses the worker's scratch: holds until the next one
   // is made.
   DistanceMixture(const optics::Light& light, const March& march, const DensityDistribution& density,
-                  const Rgb& throughput, Distance distance, const std::optional<Vec3d>& pivot,
+                  const Rgb& throughput, Distance distance, const std::optional<optics::Pivot>& pivot,
                   const PhaseMixture& phase, Worker& worker);
   DistanceMixture(const DistanceMixture&) = delete;
 

@@ -25,8 +25,9 @@ LightStrategies::FlightDensities LightStrategies::flight_densities(const Aim& ai
                                                                    Worker& worker) const {
   if (!aims() || !aim.pivot) return {0, collision};
   worker.stretches.clear();
-  reached_stretches(world_->lights[aim.light], *march_, worker.stretches);
-  const Equiangular equiangular(march_->ray.origin, march_->ray.direction, *aim.pivot, worker.stretches);
+  reached_stretches(world_->lights[aim.light], *aim.pivot, *march_, worker.stretches);
+  const Equiangular equiangular(march_->ray.origin, march_->ray.direction, aim.pivot->position,
+                                worker.stretches);
   if (!equiangular.available()) return {0, collision};
   return {equiangular.pdf(t), distance_ == Distance::equiangular ? 0.0 : collision};
 }
@@ -39,8 +40,9 @@ void LightStrategies::aim(const SobolPoint& point, Flight& flight, Worker& worke
   const Aim aim = choose(point, u);
   if (!aim.pivot) return;
   worker.stretches.clear();
-  reached_stretches(world_->lights[aim.light], *march_, worker.stretches);
-  const Equiangular equiangular(march_->ray.origin, march_->ray.direction, *aim.pivot, worker.stretches);
+  reached_stretches(world_->lights[aim.light], *aim.pivot, *march_, worker.stretches);
+  const Equiangular equiangular(march_->ray.origin, march_->ray.direction, aim.pivot->position,
+                                worker.stretches);
   if (equiangular.available()) flight.aimed_t = equiangular.sample(point[2]);
 }
 
@@ -71,8 +73,8 @@ void LightStrategies::add_flight_ray(const Aim& aim, const SobolPoint& point, do
                                      double own_density, const FlightDensities& densities, double collision,
                                      bool continues, std::uint32_t shadow_seed, Worker& worker) {
   const Vec3d x = march_->ray.origin + march_->ray.direction * t;
-  const auto drawn =
-      optics::sample_light(world_->lights[aim.light], x, aim.pivot.value_or(Vec3d{}), point[3], point[4]);
+  const auto drawn = optics::sample_light(world_->lights[aim.light], x, aim.pivot.value_or(optics::Pivot{}),
+                                          point[3], point[4]);
   if (!drawn) return;
   worker.phase.set(*world_, *march_, march_->segment_at(t));
   const float m = optics::one_minus_cos(Vec3f(march_->ray.direction), Vec3f(drawn->direction));
@@ -83,7 +85,7 @@ void LightStrategies::add_flight_ray(const Aim& aim, const SobolPoint& point, do
   const Rgb contribution = weight * worker.phase.eval(m) * drawn->radiance_over_pdf *
                            static_cast<float>(own_density * y / (all * aim.choice));
   if (!is_black(contribution))
-    worker.shadows.add(shadow_ray(x, *drawn, aim.light, contribution, shadow_seed));
+    worker.shadows.add(shadow_ray(*world_, x, *drawn, aim.light, contribution, shadow_seed));
 }
 
 // The part of a segment that gets one light sample: the volumes' step, also in media without variation.
@@ -117,8 +119,8 @@ void LightStrategies::sample_steps(const SobolPoint& point, std::uint32_t shadow
       }
       const Aim aim = choose(moved, u_rest);
       const Vec3d x = march_->ray.origin + march_->ray.direction * t;
-      const auto drawn =
-          optics::sample_light(world_->lights[aim.light], x, aim.pivot.value_or(Vec3d{}), moved[3], moved[4]);
+      const auto drawn = optics::sample_light(world_->lights[aim.light], x,
+                                              aim.pivot.value_or(optics::Pivot{}), moved[3], moved[4]);
       if (!drawn) continue;
       worker.phase.set(*world_, *march_, i);
       const float m = optics::one_minus_cos(Vec3f(march_->ray.direction), Vec3f(drawn->direction));
@@ -129,7 +131,7 @@ void LightStrategies::sample_steps(const SobolPoint& point, std::uint32_t shadow
       const Rgb contribution = weight * sigma_s * march_->transmittance_at(i, t) * worker.phase.eval(m) *
                                drawn->radiance_over_pdf * static_cast<float>(share * dt / aim.choice);
       if (!is_black(contribution))
-        worker.shadows.add(shadow_ray(x, *drawn, aim.light, contribution, shadow_seed + counter));
+        worker.shadows.add(shadow_ray(*world_, x, *drawn, aim.light, contribution, shadow_seed + counter));
     }
   }
 }

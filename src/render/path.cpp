@@ -139,13 +139,13 @@ class PathTracer {
   // The surfaces that the ray goes through, and what it ends at. Adds their light.
   void meet_surfaces(const PathState& s, const March& m) {
     met_.clear();
-    const auto meet = [&](const SurfacePoint& point, const Rgb& throughput) {
-      add(throughput * point.emission, s.part(s.depth), "emission of a surface");
+    const auto meet = [&](const SurfacePoint& point, const Rgb& throughput, float share) {
+      add(throughput * point.emission * share, s.part(s.depth), "emission of a surface");
       met_.add(point, throughput);
     };
     for (std::size_t k = 0; k < path_->crossings.size(); ++k) {
       const SurfacePoint& point = path_->crossings[k].surface;
-      meet(point, s.throughput * m.crossings[k].before * point.opacity);
+      meet(point, s.throughput * m.crossings[k].before * point.opacity, 1);
     }
     const Rgb at_end = s.throughput * m.end_transmittance();
     const auto& hit = path_->hit;
@@ -155,7 +155,8 @@ class PathTracer {
       gather_light(s, *hit, at_end);
     } else {
       end_surface_ = evaluate_surface(world_, *hit, s.ray.direction, worker_);
-      meet(*end_surface_, at_end);
+      const bool sampled = hit->glow != compile::no_index;
+      meet(*end_surface_, at_end, sampled ? weight(s, hit->glow, hit->position, hit->normal) : 1);
     }
   }
 

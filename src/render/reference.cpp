@@ -91,6 +91,8 @@ LightSample sample(const optics::DistantLight& light, const Vec3d&, double u, do
 }
 
 // Found by rays that escape instead.
+// Mesh lights are not for the reference: scenes for it have none.
+LightSample sample(const optics::MeshLight&, const Vec3d&, double, double) { return {}; }
 LightSample sample(const optics::EnvironmentLight&, const Vec3d&, double, double) { return {}; }
 
 // One path after the other through one pixel, with that pixel's own random numbers.

@@ -56,6 +56,11 @@ bool to_world(optics::DiskLight& light, const Transform& world_from_local) {
   return true;
 }
 
+bool to_world(optics::MeshLight& light, const Transform& world_from_local) {
+  light.world_from_shape = world_from_local * light.world_from_shape;
+  return light.world_from_shape.inverse().has_value();
+}
+
 bool to_world(optics::DistantLight& light, const Transform& world_from_local) {
   light.direction = normalize(world_from_local.vector(light.direction));
   return true;
@@ -77,11 +82,14 @@ void add_light(Run& run, ObjectLight light, const Transform& world_from_light) {
     run.building->lights.push_back(std::move(light));
     return;
   }
-  if (!std::visit([&](auto& l) { return to_world(l, world_from_light); }, light.light))
+  // The area of a stretched tube, and so its power, has no plain form.
+  const bool tube = light.shape && std::holds_alternative<scene::Cylinder>(*light.shape);
+  if (!std::visit([&](auto& l) { return to_world(l, world_from_light); }, light.light) ||
+      (tube && !similarity_scale(std::get<optics::MeshLight>(light.light).world_from_shape)))
     return run.diagnostics.error(light.definition,
                                  fmt::format("a '{}' cannot be stretched or sheared", light.statement),
                                  "use one scale for all axes in the transforms around it");
-  run.scene.lights.push_back({light.light, light.definition});
+  run.scene.lights.push_back({light.light, light.definition, light.shape});
 }
 
 template <class Light>
@@ -92,6 +100,31 @@ void run_light(Run& run, const Site& site, const syntax::ThingItem& thing, const
   reader.finish();
   if (!reader.ok()) return;
   add_light(run, {light, {}, header(thing), row.name}, site.world_from_local * placement.transform);
+}
+
+// Spheres, quads and disks are lights of their own.
+void run_mesh_light(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
+  const auto given = reader.read<MeshLightParameters>();
+  const auto light = reader.read_valid<optics::MeshLight>();
+  const auto placement = reader.read<Placement>();
+  reader.finish();
+  std::optional<PlacedShape> in;
+  if (given.in.given()) in = read_shape_value(run, given.in, Inside::any);
+  if (!reader.ok() || !in) return;
+  if (std::holds_alternative<scene::Plane>(in->shape))
+    return reader.error(given.in.span, "a plane has no end: its light would be endless", "write a quad");
+  ObjectLight out{light, {}, header(thing), row.name};
+  if (const auto* s = std::get_if<scene::Sphere>(&in->shape))
+    out.light = optics::SphereLight{s->center, s->radius, light.power, light.radiance, light.visible};
+  else if (const auto* q = std::get_if<scene::Quad>(&in->shape))
+    out.light = optics::QuadLight{q->center, q->u, q->v, light.power, light.radiance, light.visible};
+  else if (const auto* d = std::get_if<scene::Disk>(&in->shape))
+    out.light =
+        optics::DiskLight{d->center, d->normal, d->radius, light.power, light.radiance, light.visible};
+  else
+    out.shape = in->shape;
+  add_light(run, out, site.world_from_local * placement.transform * in->outer_from_shape);
 }
 
 template void run_light<optics::PointLight>(Run&, const Site&, const syntax::ThingItem&, const Statement&);

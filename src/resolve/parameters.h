@@ -78,6 +78,17 @@ struct MeshParameters {
   }
 };
 
+// What a mesh light takes besides its own fields.
+struct MeshLightParameters {
+  static constexpr std::string_view keyword = optics::MeshLight::keyword;
+  Thing in{eval::Type::shape};
+  template <class F>
+  static void fields(F&& field) {
+    field(&MeshLightParameters::in,
+          FieldInfo{"in", "the shape that shines, from its outer or front side", Quantity::plain, required});
+  }
+};
+
 // What every shape takes besides its own fields.
 struct ShapePlacement {
   Transform transform;

@@ -21,6 +21,7 @@ bool to_world(optics::SpotLight& light, const Transform& world_from_local);
 bool to_world(optics::SphereLight& light, const Transform& world_from_local);
 bool to_world(optics::QuadLight& light, const Transform& world_from_local);
 bool to_world(optics::DiskLight& light, const Transform& world_from_local);
+bool to_world(optics::MeshLight& light, const Transform& world_from_local);
 bool to_world(optics::DistantLight& light, const Transform& world_from_local);
 bool to_world(optics::EnvironmentLight& light, const Transform& world_from_local);
 

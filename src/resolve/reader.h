@@ -38,12 +38,13 @@ struct SchemasOf {
   }
   std::tuple<Schema<T>...> all;
 };
-using Schemas = SchemasOf<RenderParameters, AnimationParameters, MeshParameters, ShapePlacement, Placement,
-                          VolumeParameters, GroupParameters, PlaceParameters, scene::PerspectiveCamera,
-                          scene::OrthographicCamera, scene::SphericalCamera, scene::Sphere, scene::Box,
-                          scene::Plane, scene::Quad, scene::Disk, scene::Cylinder, optics::PointLight,
-                          optics::SpotLight, optics::SphereLight, optics::QuadLight, optics::DiskLight,
-                          optics::DistantLight, optics::EnvironmentLight>;
+using Schemas =
+    SchemasOf<RenderParameters, AnimationParameters, MeshParameters, MeshLightParameters, ShapePlacement,
+              Placement, VolumeParameters, GroupParameters, PlaceParameters, scene::PerspectiveCamera,
+              scene::OrthographicCamera, scene::SphericalCamera, scene::Sphere, scene::Box, scene::Plane,
+              scene::Quad, scene::Disk, scene::Cylinder, optics::PointLight, optics::SpotLight,
+              optics::SphereLight, optics::QuadLight, optics::DiskLight, optics::MeshLight,
+              optics::DistantLight, optics::EnvironmentLight>;
 
 // The text a block belongs to and the names in force where its values stand.
 struct ReaderSite {

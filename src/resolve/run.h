@@ -55,6 +55,7 @@ struct ObjectLight {
   Transform object_from_light;
   Span definition;
   std::string_view statement;
+  std::optional<scene::Shape> shape{};  // of a mesh light
 };
 
 // What an object holds, while or after its body is run.
@@ -157,6 +158,14 @@ std::string main_file_key(const Run& run);
 void define_file_let(Run& run, eval::Evaluator& evaluator, const syntax::SyntaxTree& tree,
                      const syntax::Item& item, const syntax::LetItem& let,
                      const std::shared_ptr<eval::Scope>& scope);
+
+// The shape that a parameter holds, and its own transform; nothing after an error.
+struct PlacedShape {
+  scene::Shape shape;
+  Transform outer_from_shape;
+};
+enum class Inside : bool { any, needed };  // whether open shapes will do
+std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside inside);
 
 // Adds a light to the scene or the object being built; an error when its shape does not survive the map to
 // the world.

@@ -8,11 +8,6 @@ namespace tyndall::resolve {
 
 namespace {
 
-struct PlacedShape {
-  scene::Shape shape;
-  Transform medium_from_shape;
-};
-
 // The words of the statements that make closed shapes: "sphere, box".
 std::string closed_shapes(const Run& run) {
   std::vector<std::string_view> names;
@@ -32,8 +27,9 @@ void warn_if_open(Run& run, const scene::Mesh& mesh, const syntax::ThingExpr& th
       "counter-clockwise seen from outside");
 }
 
-// Reads the shape in a volume's `in`; nothing after an error.
-std::optional<PlacedShape> read_closed_shape(Run& run, const Thing& in) {
+}  // namespace
+
+std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside inside) {
   if (in.value.is_error()) return std::nullopt;
   const auto* literal = in.value.get<eval::ShapeLiteral>();
   CHECK(literal);
@@ -48,7 +44,7 @@ std::optional<PlacedShape> read_closed_shape(Run& run, const Thing& in) {
     run.diagnostics.error(thing.keyword.span, fmt::format("'{}' is not available yet", row->name));
     return std::nullopt;
   }
-  if (!row->closed) {
+  if (inside == Inside::needed && !row->closed) {
     run.diagnostics.error(thing.keyword.span, fmt::format("a '{}' is open: a volume needs an inside", word),
                           fmt::format("closed shapes are: {}", closed_shapes(run)));
     return std::nullopt;
@@ -58,13 +54,13 @@ std::optional<PlacedShape> read_closed_shape(Run& run, const Thing& in) {
   Reader reader(run.evaluator, run.schemas, {literal->tree, &scope}, thing.block, word, thing.keyword.span);
   const scene::Shape shape = row->read_shape(run, reader);
   const auto placement = reader.read<Placement>();
-  reader.finish("'visible' and the like are parameters of the volume");
+  reader.finish(inside == Inside::needed ? "'visible' and the like are parameters of the volume"
+                                         : "'visible' and the like are parameters of the light");
   if (!reader.ok()) return std::nullopt;
-  if (const auto* mesh = std::get_if<scene::Mesh>(&shape)) warn_if_open(run, *mesh, thing);
+  if (const auto* mesh = std::get_if<scene::Mesh>(&shape); mesh && inside == Inside::needed)
+    warn_if_open(run, *mesh, thing);
   return PlacedShape{shape, placement.transform};
 }
-
-}  // namespace
 
 void report_no_shape(Run& run, const syntax::ThingExpr& thing) {
   const std::string_view word = run.symbols.text(thing.keyword.symbol);
@@ -113,7 +109,7 @@ void run_volume(Run& run, const Site& site, const syntax::ThingItem& thing, cons
   if (given.step && !given.step->automatic() && !(given.step->metres > 0))
     reader.error(reader.place("step"), fmt::format("'step' must be above 0, found {}", given.step->metres));
   std::optional<PlacedShape> in;
-  if (given.in.given()) in = read_closed_shape(run, given.in);
+  if (given.in.given()) in = read_shape_value(run, given.in, Inside::needed);
   scene::MediumId medium;
   if (given.medium.given()) medium = medium_of(run, given.medium);
   scene::MaterialId material;
@@ -124,7 +120,7 @@ void run_volume(Run& run, const Site& site, const syntax::ThingItem& thing, cons
   if (!reader.ok() || !in || !medium.valid()) return;
   const auto world_from_medium = placed(reader, site, given.transform);
   if (!world_from_medium) return;
-  scene::Volume volume{in->shape,          *world_from_medium * in->medium_from_shape,
+  scene::Volume volume{in->shape,          *world_from_medium * in->outer_from_shape,
                        *world_from_medium, medium,
                        given.step,         site.visible && given.visible,
                        header(thing),      given.priority};

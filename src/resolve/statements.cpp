@@ -55,7 +55,7 @@ std::vector<Statement> all_statements() {
       light<optics::SphereLight>(),
       light<optics::QuadLight>(),
       light<optics::DiskLight>(),
-      {"light mesh"},
+      {optics::MeshLight::keyword, {}, {}, run_mesh_light},
       light<optics::EnvironmentLight>(),
       shape<scene::Sphere>(true),
       shape<scene::Box>(true),

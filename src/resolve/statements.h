@@ -57,6 +57,7 @@ void run_render(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 void run_animation(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 template <class Camera>
 void run_camera(Run&, const Site&, const syntax::ThingItem&, const Statement&);
+void run_mesh_light(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& statement);
 template <class Light>
 void run_light(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 void run_shape(Run&, const Site&, const syntax::ThingItem&, const Statement&);

@@ -225,6 +225,11 @@ std::string print(const Scene& scene) {
   print_things(p, scene);
   for (const LightInstance& l : scene.lights) {
     print_variant(p, l.light);
+    if (l.shape) {
+      p.put_text("in ");
+      print_variant(p, *l.shape);
+      p.item("world_from_shape", std::get<optics::MeshLight>(l.light).world_from_shape);
+    }
     if (const auto* sky = std::get_if<optics::EnvironmentLight>(&l.light))
       p.item("world_from_sky", sky->world_from_sky);
   }

@@ -244,6 +244,7 @@ struct Volume {
 struct LightInstance {
   optics::Light light;  // world space
   Span definition;
+  std::optional<Shape> shape{};  // of a mesh light, placed by its world_from_shape
 };
 
 // ------------------------------------------------------------------------------------------------ prototypes

@@ -244,6 +244,13 @@ Problems validate(const optics::DiskLight& l) {
   return problems;
 }
 
+Problems validate(const optics::MeshLight& l) {
+  Problems problems;
+  want_color(problems, "power", l.power);
+  want_color(problems, "radiance", l.radiance);
+  return problems;
+}
+
 Problems validate(const optics::DistantLight& l) {
   Problems problems;
   want_direction(problems, "direction", l.direction);

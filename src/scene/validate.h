@@ -38,6 +38,7 @@ Problems validate(const optics::SpotLight& light);
 Problems validate(const optics::SphereLight& light);
 Problems validate(const optics::QuadLight& light);
 Problems validate(const optics::DiskLight& light);
+Problems validate(const optics::MeshLight& light);
 Problems validate(const optics::DistantLight& light);
 Problems validate(const optics::EnvironmentLight& light);
 

@@ -73,6 +73,7 @@ class Tables {
   void add() {
     text += fmt::format("\n### {}\n\n| parameter | is | default |\n| --- | --- | --- |\n", T::keyword);
     keywords.emplace(T::keyword);
+    if constexpr (std::is_same_v<T, optics::MeshLight>) add_rows<resolve::MeshLightParameters>(text);
     add_rows<T>(text);
     (add_rows<Others>(text), ...);
   }

@@ -67,7 +67,7 @@ TEST(Lights, DrawWithTheDensityTheyTell) {
     if (is_delta(c.light)) continue;
     for (const Vec3d x : {Vec3d(0.5, 3, -1.5), Vec3d(2, 1.2, -0.2), Vec3d(-0.9, 6, -3), Vec3d(30, 90, -60)}) {
       const bool square = std::holds_alternative<QuadLight>(c.light);
-      const Vec3d middle = *sample_pivot(c.light, square ? 0.5f : 0.0f, 0.5f);
+      const Vec3d middle = sample_pivot(c.light, square ? 0.5f : 0.0f, 0.5f)->position;
       const Frame<double> frame = Frame<double>::around(normalize(middle - x));
       // 1 - cos of a cone that holds the light: no point of it is farther than 1.5 from its middle.
       const double sine = std::min(1.0, 1.5 / length(middle - x)),
@@ -148,7 +148,7 @@ TEST(Lights, ReachThePartsTheyTell) {
       const Vec3d origin{3 * uniform(random), 3 * uniform(random), 3 * uniform(random)};
       const Vec3d direction = normalize(Vec3d{uniform(random), uniform(random), uniform(random)});
       const double t_max = ray % 2 ? 4 : infinity;
-      const ReachedParts reached = reached_parts(c.light, origin, direction, t_max);
+      const ReachedParts reached = reached_parts(c.light, {}, origin, direction, t_max);
       double before = 0;
       for (int i = 0; i < reached.count; ++i) {
         EXPECT_LE(before, reached.parts[i].lo) << c.name;
@@ -184,16 +184,16 @@ TEST(Lights, ReachThePartsTheyTell) {
 // Rays through the apex of a cone, along its axis and across it.
 TEST(Lights, ReachThroughTheApex) {
   const Light spot = SpotLight{{0, 0, 0}, {0, 0, -1}, {30 * pi / 180}, 0, Rgb(1), {}};
-  ReachedParts reached = reached_parts(spot, {0, 0, 2}, {0, 0, -1}, 10);
+  ReachedParts reached = reached_parts(spot, {}, {0, 0, 2}, {0, 0, -1}, 10);
   ASSERT_EQ(reached.count, 1);
   EXPECT_EQ(reached.parts[0], (Intervald{2, 10}));
-  reached = reached_parts(spot, {0, 0, -3}, {0, 0, 1}, 10);
+  reached = reached_parts(spot, {}, {0, 0, -3}, {0, 0, 1}, 10);
   ASSERT_EQ(reached.count, 1);
   EXPECT_EQ(reached.parts[0], (Intervald{0, 3}));
-  EXPECT_EQ(reached_parts(spot, {-1, 0, 0}, {1, 0, 0}, 10).count, 0);
+  EXPECT_EQ(reached_parts(spot, {}, {-1, 0, 0}, {1, 0, 0}, 10).count, 0);
   const Light wide = SpotLight{{0, 0, 0}, {0, 0, -1}, {150 * pi / 180}, 0, Rgb(1), {}};
   // Across the dark cone behind the light: lit before it and after it.
-  reached = reached_parts(wide, {-5, 0, 1}, {1, 0, 0}, 10);
+  reached = reached_parts(wide, {}, {-5, 0, 1}, {1, 0, 0}, 10);
   ASSERT_EQ(reached.count, 2);
   EXPECT_NEAR(reached.parts[0].hi, 5 - std::tan(30 * pi / 180), 1e-12);
   EXPECT_NEAR(reached.parts[1].lo, 5 + std::tan(30 * pi / 180), 1e-12);

@@ -77,7 +77,7 @@ TEST(DistanceMixture, SamplesFollowTheDensity) {
       const DistanceMixture mixture(w.lights[0], m, density, throughput, distance, pivot, phase, worker);
       ASSERT_TRUE(mixture.available());
       const std::string what = "strategy " + std::to_string(static_cast<int>(distance)) + ", light " +
-                               std::to_string(light.index()) + " at x " + std::to_string(pivot->x);
+                               std::to_string(light.index()) + " at x " + std::to_string(pivot->position.x);
       // Cells of equal probability would hide errors: equal widths, with finer ones about a near light.
       constexpr int cells = 60, draws = 200000, fine = 4000;
       std::vector<double> edges(cells + 1);
@@ -86,7 +86,7 @@ TEST(DistanceMixture, SamplesFollowTheDensity) {
       double total = 0;
       for (int i = 0; i < cells; ++i) {
         // Substituting z = -2.6 + D sinh(v) keeps the peak of the light 1e-7 m away within reach of the sum.
-        const double scale = std::max(std::abs(pivot->x), 1e-8), c = -pivot->z;
+        const double scale = std::max(std::abs(pivot->position.x), 1e-8), c = -pivot->position.z;
         const double v0 = std::asinh((edges[i] - c) / scale), v1 = std::asinh((edges[i + 1] - c) / scale);
         for (int k = 0; k < fine; ++k) {
           const double v = v0 + (k + 0.5) / fine * (v1 - v0), t = c + scale * std::sinh(v);

@@ -1,0 +1,85 @@
+// Lights of any shape, and shapes that glow: the same light whichever way it is found.
+#include <gtest/gtest.h>
+
+#include "support/measure.h"
+#include "support/scene_builder.h"
+
+namespace tyndall::render {
+namespace {
+
+using support::SceneBuilder;
+
+SceneBuilder fog_and_floor() {
+  SceneBuilder builder;
+  builder.image(4, 4, 64).perspective({0, 1, 5}, {0, 0.5, 0}, 40).bounces(2);
+  support::MediumColors fog;
+  fog.sigma_t = Rgb(0.3f);
+  fog.albedo = Rgb(0.8f);
+  builder.volume(scene::Box{{-3, -1, -3}, {3, 3, 3}}, builder.constant(fog))
+      .surface(scene::Plane{{0, -0.5, 0}, {0, 1, 0}}, Rgb(0.6f));
+  return builder;
+}
+
+// A roof of two slopes, which hides a part of itself from some points.
+scene::Mesh add_roof(scene::Scene& scene) {
+  scene::TriangleMesh mesh;
+  mesh.points = {{-0.5, 1, -0.5}, {-0.5, 1, 0.5}, {0, 1.6, -0.5},
+                 {0, 1.6, 0.5},   {0.5, 1, -0.5}, {0.5, 1, 0.5}};
+  mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}};
+  scene.meshes.push_back(mesh);
+  return scene::Mesh{scene::MeshId(scene.meshes.size() - 1)};
+}
+
+TEST(MeshLights, ShineAsTheQuadThatTheyAre) {
+  SceneBuilder a = fog_and_floor(), b = fog_and_floor();
+  a.quad_light({0.3, 1.5, 0}, {0.5, 0, 0.1}, {0, 0, 0.5}, Rgb(20));
+  scene::TriangleMesh mesh;
+  mesh.points = {{-0.2, 1.5, -0.6}, {0.8, 1.5, -0.4}, {0.8, 1.5, 0.6}, {-0.2, 1.5, 0.4}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  b.scene.meshes.push_back(mesh);
+  optics::MeshLight light;
+  light.power = Rgb(20);
+  b.scene.lights.push_back({light, {}, scene::Mesh{scene::MeshId(0)}});
+  support::expect_same(support::measure(a.scene).whole(), support::measure(b.scene).whole(), 0, 0.03,
+                       "quad and mesh");
+}
+
+TEST(GlowingShapes, AreTheSameWhicheverWayTheyAreFound) {
+  const std::vector<scene::Shape> shapes = {
+      scene::Sphere{{0.2, 1.2, 0}, 0.5}, scene::Box{{-0.4, 0.8, -0.4}, {0.6, 1.5, 0.5}},
+      scene::Cylinder{{-0.5, 1, 0}, {0.5, 1.3, 0.2}, 0.3}, scene::Mesh{}};
+  for (const bool stretched : {false, true})
+    for (scene::Shape shape : shapes) {
+      SceneBuilder sampled = fog_and_floor(), met = fog_and_floor();
+      if (std::holds_alternative<scene::Mesh>(shape)) {
+        shape = add_roof(sampled.scene);
+        add_roof(met.scene);
+      }
+      sampled.surface(shape, Rgb(0.2f), Rgb(5, 3, 1));
+      met.surface(shape, Rgb(0.2f), Rgb(5, 3, 1));
+      if (stretched)
+        for (SceneBuilder* b : {&sampled, &met})
+          b->scene.shapes.back().world_from_object =
+              Transform{{1.2, 0.1, 0}, {0, 0.7, 0.2}, {0, 0, 1}, {0, 0.2, 0}};
+      // The same emission as a value of the point, which is not known to be the same everywhere.
+      scene::Material& material = met.scene.materials.back();
+      vm::Builder builder(false);
+      const vm::NodeId zero =
+          builder.emit(vm::Op::mul, {builder.input(vm::Input::p_x), builder.constant(0)}, {});
+      std::vector<vm::NodeId> outputs = {builder.constant(0.2f)};
+      for (const float e : {5.0f, 3.0f, 1.0f})
+        outputs.push_back(builder.emit(vm::Op::add, {zero, builder.constant(e)}, {}));
+      material.program = *builder.finish(outputs);
+      material.base_color = {0, 0, 0};
+      material.emission = scene::RgbOutputs{1, 2, 3};
+      material.output_spans.resize(4);
+      const compile::CompiledScene a = compile::compile(sampled.scene), b = compile::compile(met.scene);
+      EXPECT_EQ(a.lights.size(), 1u);
+      EXPECT_EQ(b.lights.size(), 0u);
+      support::expect_same(support::measure(sampled.scene).whole(), support::measure(met.scene).whole(), 0,
+                           0.05, "shape " + std::to_string(shape.index()));
+    }
+}
+
+}  // namespace
+}  // namespace tyndall::render
