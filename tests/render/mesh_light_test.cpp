@@ -81,5 +81,30 @@ TEST(GlowingShapes, AreTheSameWhicheverWayTheyAreFound) {
     }
 }
 
+// One-sided, and partly hidden by itself: every way to draw the distance, and every method, finds the same.
+TEST(MeshLights, AreTheSameByEveryMethod) {
+  SceneBuilder builder = fog_and_floor();
+  builder.scene.settings.samples = 128;
+  const scene::Mesh roof = add_roof(builder.scene);
+  optics::MeshLight light;
+  light.radiance = Rgb(4, 3, 2);
+  builder.scene.lights.push_back({light, {}, roof});
+  RenderOptions density;
+  density.distance = Distance::density;
+  const support::Estimate wanted = support::measure(builder.scene, density).whole();
+  for (const Distance distance : {Distance::mis, Distance::equiangular, Distance::product}) {
+    RenderOptions options;
+    options.distance = distance;
+    support::expect_same(support::measure(builder.scene, options).whole(), wanted, 0, 0.05,
+                         "distance " + std::to_string(static_cast<int>(distance)));
+  }
+  for (const Method method : {Method::brute_force, Method::stochastic, Method::tracking}) {
+    RenderOptions options;
+    options.method = method;
+    support::expect_same(support::measure(builder.scene, options).whole(), wanted, 0, 0.05,
+                         "method " + std::to_string(static_cast<int>(method)));
+  }
+}
+
 }  // namespace
 }  // namespace tyndall::render
