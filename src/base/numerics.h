@@ -16,6 +16,7 @@ inline constexpr float infinity_f = std::numeric_limits<float>::infinity();
 inline constexpr double inv_4pi = 0.25 / std::numbers::pi;
 // The largest float below one: uniform samples never reach 1.
 inline constexpr float one_minus_ulp_f = 0x1.fffffep-1f;
+inline constexpr double one_minus_ulp = 0x1.fffffffffffffp-1;
 
 // (1 - e^-x)/x for x >= 0: 1 at 0, 1/x when e^-x vanishes.
 // The integral of transmittance over a segment of length d is d * exp_average(sigma_t * d).

@@ -7,6 +7,7 @@
 #include "base/overloaded.h"
 #include "compile/emitters.h"
 #include "compile/geometry.h"
+#include "compile/light_tree.h"
 #include "compile/majorant_grid.h"
 #include "compile/solids.h"
 #include "compile/volume_grids.h"
@@ -16,6 +17,9 @@
 namespace tyndall::compile {
 
 namespace {
+
+// Up to this many lights are weighed one by one.
+constexpr std::size_t few_lights = 8;
 
 Transform inverse_of(const Transform& t) {
   const auto inverse = t.inverse();
@@ -191,6 +195,7 @@ CompiledScene compile(scene::Scene scene) {
   for (const scene::LightInstance& l : world.scene.lights)
     world.lights.push_back(moved(world.scene, l, -world.origin));
   const std::vector<std::uint32_t> glows = add_glowing_shapes(world.scene, render_from_world, world.lights);
+  if (world.lights.size() > few_lights) world.light_tree = std::make_unique<const LightTree>(world.lights);
 
   for (const scene::Medium& m : world.scene.media) world.media.push_back(compiled(m));
   const std::vector<scene::Volume> volumes = scene::all_volumes(world.scene);

@@ -102,6 +102,7 @@ struct CompiledVolume {
 class Geometry;      // Embree, behind geometry.cpp
 class Solids;        // solids.h
 class MajorantGrid;  // majorant_grid.h
+class LightTree;     // light_tree.h
 
 class CompiledScene {
  public:
@@ -117,6 +118,7 @@ class CompiledScene {
   std::vector<CompiledVolume> volumes;
   // scene.lights, moved to render space; then shapes whose material glows alike everywhere.
   std::vector<optics::Light> lights;
+  std::unique_ptr<const LightTree> light_tree;  // when there are many
   std::unique_ptr<Geometry> geometry;
   std::unique_ptr<const Solids> solids;              // when Features::nested_glass
   std::vector<std::unique_ptr<MajorantGrid>> grids;  // of volumes whose medium varies; see grid_walk.h

@@ -28,29 +28,6 @@ ShadowRay shadow_ray(const compile::CompiledScene& world, const Vec3d& from, con
   return {{from, light.direction, std::max(end - margin, 0.0)}, compile::no_index, contribution, seed};
 }
 
-void LightChoice::set(const compile::CompiledScene& world, const Vec3d& origin, const Vec3d& direction,
-                      double t0, double t1) {
-  weights_.resize(world.lights.size());
-  total_ = 0;
-  for (std::size_t i = 0; i < weights_.size(); ++i) {
-    weights_[i] = optics::importance(world.lights[i], origin, direction, t0, t1);
-    total_ += weights_[i];
-  }
-}
-
-std::uint32_t LightChoice::sample(float& u) const {
-  double rest = u * total_;
-  std::size_t i = 0, last = 0;
-  for (; i < weights_.size(); ++i) {
-    if (weights_[i] <= 0) continue;
-    last = i;
-    if (rest < weights_[i]) break;
-    rest -= weights_[i];
-  }
-  u = std::min(static_cast<float>(std::max(rest, 0.0) / weights_[last]), one_minus_ulp_f);
-  return static_cast<std::uint32_t>(last);
-}
-
 void LightStrategies::set(const compile::CompiledScene& world, const March& march, const Rgb& throughput,
                           Method method, Distance distance) {
   world_ = &world;

@@ -11,6 +11,7 @@
 #include "compile/compiled_scene.h"
 #include "optics/light_sampling.h"
 #include "render/flight.h"
+#include "render/light_choice.h"
 #include "render/march.h"
 #include "render/render.h"
 #include "render/surface.h"
@@ -19,21 +20,6 @@
 namespace tyndall::render {
 
 struct Worker;
-
-// The lights with the probability of choosing each for one stretch of a ray (or a point: t0 = t1).
-class LightChoice {
- public:
-  void set(const compile::CompiledScene& world, const Vec3d& origin, const Vec3d& direction, double t0,
-           double t1);
-  bool empty() const { return total_ <= 0; }
-  // The light for u in [0, 1); rescales u to be used again.
-  std::uint32_t sample(float& u) const;
-  double probability(std::uint32_t light) const { return weights_[light] / total_; }
-
- private:
-  std::vector<double> weights_;
-  double total_ = 0;
-};
 
 // A ray with what is needed to say with which density (t, y) would be drawn from it for direct light.
 class LightStrategies {

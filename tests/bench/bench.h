@@ -10,6 +10,9 @@ bool bench_scenes(double seconds);
 // Bounds against points, grids of a cloud, and what skipping empty space saves.
 void bench_bounds(double seconds_a_row);
 
+// Ten lights against a thousand, at equal error. False when a thousand cost more than three times as much.
+bool bench_lights();
+
 // The estimators of transmittance on known densities: bias and error at each cost.
 void bench_transmittance();
 

@@ -3,42 +3,21 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "bench.h"
 #include "compile/compiled_scene.h"
 #include "render/render.h"
-#include "resolve/resolve.h"
-#include "syntax/parser.h"
+#include "scene_file.h"
 
 namespace tyndall {
-
-namespace {
-
-std::optional<scene::Scene> load(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  Sources sources;
-  Diagnostics diagnostics;
-  syntax::Symbols symbols;
-  const SourceId source = sources.add(path, {std::istreambuf_iterator<char>(file), {}});
-  const syntax::TokenList tokens = syntax::lex(sources, source, diagnostics);
-  const syntax::SyntaxTree tree = syntax::parse(sources, source, tokens, symbols, diagnostics);
-  scene::Scene scene = resolve::resolve(tree, sources, symbols, {}, diagnostics);
-  if (!diagnostics.has_errors()) return scene;
-  fmt::print(stderr, "{}", render_text(diagnostics, sources, false));
-  return std::nullopt;
-}
-
-}  // namespace
 
 bool bench_scenes(double seconds) {
   constexpr std::array names{"first-light", "point-light-in-fog", "smoky-room"};
   std::vector<compile::CompiledScene> worlds;
   for (const char* name : names) {
-    std::optional<scene::Scene> scene = load(fmt::format("{}/scenes/{}.tyn", TYNDALL_SOURCE_DIR, name));
+    std::optional<scene::Scene> scene = load_scene(fmt::format("{}/scenes/{}.tyn", TYNDALL_SOURCE_DIR, name));
     if (!scene) return false;
     scene->settings.width = 160;
     scene->settings.height = 90;

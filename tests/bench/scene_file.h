@@ -1,0 +1,31 @@
+// Scenes and what pictures of them cost, for the benchmarks.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compile/compiled_scene.h"
+#include "image/image.h"
+#include "render/render.h"
+#include "scene/scene.h"
+
+namespace tyndall {
+
+// Parses and resolves; nothing, with the problems printed to stderr, when it has any. `name` is for messages.
+// `overrides` are those of --set.
+std::optional<scene::Scene> read_scene(const std::string& name, std::string text,
+                                       std::vector<std::pair<std::string, std::string>> overrides = {});
+std::optional<scene::Scene> load_scene(const std::string& path);
+
+// Time and error of a picture: time times the mean squared relative error against a reference is what a way
+// of rendering costs, whatever its number of samples.
+struct Cost {
+  double seconds = 0, relmse = 0;
+  double product() const { return seconds * relmse; }
+};
+Cost cost_of(const compile::CompiledScene& world, const render::RenderOptions& options,
+             const image::Image& reference);
+
+}  // namespace tyndall
