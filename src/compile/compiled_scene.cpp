@@ -31,7 +31,8 @@ Vec3d camera_position(const scene::Camera& camera) {
   return std::visit([](const auto& c) { return c.from; }, camera);
 }
 
-optics::Light moved(const scene::Scene& scene, const scene::LightInstance& instance, const Vec3d& offset) {
+// Moves a light's place. Its emitter and densities are made when `scene` is given.
+optics::Light moved(const scene::Scene* scene, const scene::LightInstance& instance, const Vec3d& offset) {
   optics::Light out = instance.light;
   std::visit(Overloaded{[&](optics::PointLight& l) { l.position += offset; },
                         [&](optics::SphereLight& l) { l.center += offset; },
@@ -40,11 +41,11 @@ optics::Light moved(const scene::Scene& scene, const scene::LightInstance& insta
                         [&](optics::DiskLight& l) { l.center += offset; },
                         [&](optics::MeshLight& l) {
                           l.world_from_shape.t += offset;
-                          l.emitter = emitter_of(scene, *instance.shape, l.world_from_shape);
+                          if (scene) l.emitter = emitter_of(*scene, *instance.shape, l.world_from_shape);
                         },
                         [](optics::DistantLight&) {},
-                        [](optics::EnvironmentLight& l) {
-                          if (l.radiance.picture[0]) l.sky = std::make_shared<const optics::Sky>(l);
+                        [&](optics::EnvironmentLight& l) {
+                          if (scene && l.radiance.picture[0]) l.sky = std::make_shared<const optics::Sky>(l);
                         }},
              out);
   return out;
@@ -114,6 +115,23 @@ std::vector<double> rough_etas(const CompiledScene& world) {
 }
 
 // Bodies of glass are kept when there is something that they could overlap.
+// Whether anything differs between rays of different times.
+bool moves(const scene::Scene& scene) {
+  const scene::Motion& m = scene.motion;
+  if (scene.animation.shutter.radians == 0) return false;
+  if (!m.camera.empty() || !m.shapes.empty() || !m.instances.empty() || !m.volumes.empty() ||
+      !m.lights.empty())
+    return true;
+  const auto in_objects = [](const scene::Prototype& p) {
+    return !p.moving_shapes.empty() || !p.moving_instances.empty();
+  };
+  return std::any_of(scene.prototypes.begin(), scene.prototypes.end(), in_objects) ||
+         std::any_of(scene.media.begin(), scene.media.end(),
+                     [](const scene::Medium& medium) { return medium.full.reads(vm::Input::time); }) ||
+         std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const scene::Material& material) { return material.program.reads(vm::Input::time); });
+}
+
 void add_solids(CompiledScene& world) {
   auto solids =
       std::make_unique<const Solids>(world.scene, world.origin, world.materials, world.geometry->meshes());
@@ -158,6 +176,7 @@ Features features_of(const CompiledScene& world) {
     f.see_through |= m.opacity.has_value();
     f.normals |= m.normal.has_value();
   }
+  f.motion = moves(world.scene);
   return f;
 }
 
@@ -175,7 +194,25 @@ bool CompiledScene::occluded(const Ray& ray, std::uint32_t target_light) const {
 }
 void CompiledScene::volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const {
   geometry->volume_intervals(ray, kind, out);
-  if (solids) solids->cut(ray.origin, ray.direction, ray.t_max, volumes, out);
+  if (solids) solids->cut(ray, volumes, out);
+}
+
+CompiledVolume::Place CompiledVolume::moved(double time) const {
+  const scene::Volume v = scene::at(*motion, time);
+  const Transform render_from_world = Transform::translate(-origin);
+  return {v.shape, inverse_of(render_from_world * v.world_from_shape),
+          inverse_of(render_from_world * v.world_from_medium)};
+}
+
+LightAt::LightAt(const CompiledScene& world, std::uint32_t index, double time)
+    : light_(&world.lights[index]) {
+  if (world.light_motion.empty() || !world.light_motion[index]) return;
+  moved_ = moved(nullptr, scene::at(*world.light_motion[index], time), -world.origin);
+  // What it is drawn by stays: a mesh that moves is never drawn (optics::importance), only met.
+  if (auto* mesh = std::get_if<optics::MeshLight>(&*moved_))
+    mesh->emitter = std::get<optics::MeshLight>(*light_).emitter;
+  if (auto* sky = std::get_if<optics::EnvironmentLight>(&*moved_))
+    sky->sky = std::get<optics::EnvironmentLight>(*light_).sky;
 }
 
 double surface_offset(const CompiledScene& world, const Vec3d& position) {
@@ -193,9 +230,21 @@ CompiledScene compile(scene::Scene scene) {
   const Transform render_from_world = Transform::translate(-world.origin);
 
   for (const scene::LightInstance& l : world.scene.lights)
-    world.lights.push_back(moved(world.scene, l, -world.origin));
+    world.lights.push_back(moved(&world.scene, l, -world.origin));
+  const scene::Motion& motion = world.scene.motion;
+  std::vector<bool> light_moves(world.lights.size());
+  for (const auto& light : motion.lights) light_moves[light.index] = true;
   const std::vector<std::uint32_t> glows = add_glowing_shapes(world.scene, render_from_world, world.lights);
-  if (world.lights.size() > few_lights) world.light_tree = std::make_unique<const LightTree>(world.lights);
+  light_moves.resize(world.lights.size());
+  if (!motion.lights.empty()) {
+    world.light_motion.resize(world.lights.size());
+    for (const auto& light : motion.lights) {
+      world.light_motion[light.index] = &light.keys;
+      if (auto* mesh = std::get_if<optics::MeshLight>(&world.lights[light.index])) mesh->drawn = false;
+    }
+  }
+  if (world.lights.size() > few_lights)
+    world.light_tree = std::make_unique<const LightTree>(world.lights, light_moves);
 
   for (const scene::Medium& m : world.scene.media) world.media.push_back(compiled(m));
   const std::vector<scene::Volume> volumes = scene::all_volumes(world.scene);
@@ -209,12 +258,15 @@ CompiledScene compile(scene::Scene scene) {
     out.step = v.step.value_or(world.scene.settings.step);
     out.shape = v.shape;
     out.visible = v.visible;
+    out.origin = world.origin;
     world.volumes.push_back(std::move(out));
   }
+  for (const auto& v : motion.volumes) world.volumes[v.index].motion = &v.keys;
 
   for (const scene::Material& m : world.scene.materials)
     world.materials.push_back(compiled(m, world.scene.time));
 
+  world.shutter_seconds = scene::shutter_seconds(world.scene.animation);
   world.features = features_of(world);
   world.geometry = std::make_unique<Geometry>(world.scene, world.features, world.origin, world.lights, glows,
                                               world.volumes);

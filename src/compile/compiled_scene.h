@@ -26,6 +26,7 @@ inline constexpr std::uint32_t no_index = 0xffffffffu;
 struct Ray {
   Vec3d origin, direction;  // render space; unit direction
   double t_max = 0;
+  double time = 0;  // a fraction of the time that the shutter is open; 0 in still scenes
 };
 
 struct SurfaceHit {
@@ -35,6 +36,7 @@ struct SurfaceHit {
   Vec3d position_object, normal_object;         // the same in the shape's own space
   Vec3d shading_normal, shading_normal_object;  // unit; smoothed over a mesh that has normals
   Pair<double> uv;
+  double time = 0;  // the ray's
   // Images of normals along the axes of object space, for materials that set normals (Features::normals).
   std::array<Vec3d, 3> normal_axes{};
   bool sheet = false;                 // of a shape without an inside: glass is a pane
@@ -62,6 +64,7 @@ struct Features {
   // Materials: beyond matte, glass among them, less than opaque, with normals of their own.
   bool layered_surfaces = false, glass = false, see_through = false, normals = false;
   bool nested_glass = false;  // bodies of glass that may overlap, or cut volumes
+  bool motion = false;        // rays have times of their own
 };
 
 // What the renderer asks of a material besides its program.
@@ -96,7 +99,30 @@ struct CompiledVolume {
   std::uint32_t grid = no_index;  // index of grids when the medium varies in space
   scene::Shape shape;
   bool visible = true;
-  std::optional<SolidRank> rank{};  // set: it gives way to bodies of glass above it
+  std::optional<SolidRank> rank{};                     // set: it gives way to bodies of glass above it
+  const std::vector<scene::Volume>* motion = nullptr;  // keys over the shutter, of those that move
+  Vec3d origin;                                        // of render space, for them
+
+  // What of it depends on the ray's time.
+  Transform medium_from_render_at(double time) const {
+    return motion ? moved(time).medium_from_render : medium_from_render;
+  }
+  struct Place {
+    scene::Shape shape;
+    Transform shape_from_render, medium_from_render;
+  };
+  Place moved(double time) const;
+};
+
+// A light as it is at a ray's time: the scene's own, or moved.
+class LightAt {
+ public:
+  LightAt(const class CompiledScene& world, std::uint32_t index, double time);
+  const optics::Light& operator*() const { return moved_ ? *moved_ : *light_; }
+
+ private:
+  const optics::Light* light_;
+  std::optional<optics::Light> moved_;
 };
 
 class Geometry;      // Embree, behind geometry.cpp
@@ -118,7 +144,8 @@ class CompiledScene {
   std::vector<CompiledVolume> volumes;
   // scene.lights, moved to render space; then shapes whose material glows alike everywhere.
   std::vector<optics::Light> lights;
-  std::unique_ptr<const LightTree> light_tree;  // when there are many
+  std::vector<const std::vector<scene::LightInstance>*> light_motion;  // keys; empty when none moves
+  std::unique_ptr<const LightTree> light_tree;                         // when there are many
   std::unique_ptr<Geometry> geometry;
   std::unique_ptr<const Solids> solids;              // when Features::nested_glass
   std::vector<std::unique_ptr<MajorantGrid>> grids;  // of volumes whose medium varies; see grid_walk.h
@@ -130,6 +157,10 @@ class CompiledScene {
   // Every volume interval that meets [0, t_max), appended to `out` (cleared first), in order of (t0, volume).
   // Complete for rays that start inside volumes: no state is carried.
   void volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const;
+
+  // Seconds, for shaders.
+  float seconds_at(double time) const { return static_cast<float>(scene.time + time * shutter_seconds); }
+  double shutter_seconds = 0;
 
  private:
   friend CompiledScene compile(scene::Scene scene);

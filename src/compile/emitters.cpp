@@ -93,8 +93,13 @@ std::shared_ptr<const optics::Emitter> emitter_of(const scene::Scene& scene, con
 std::vector<std::uint32_t> add_glowing_shapes(const scene::Scene& scene, const Transform& render_from_world,
                                               std::vector<optics::Light>& lights) {
   std::vector<std::uint32_t> light_of_shape;
+  auto moving = scene.motion.shapes.begin();
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     const scene::ShapeInstance& shape = scene.shapes[i];
+    if (moving != scene.motion.shapes.end() && moving->index == i) {
+      ++moving;  // met by chance
+      continue;
+    }
     const auto emission = constant_emission(scene.materials[shape.material.index]);
     if (!emission) continue;
     optics::MeshLight light;

@@ -15,9 +15,9 @@ namespace tyndall::compile {
 std::shared_ptr<const optics::Emitter> emitter_of(const scene::Scene& scene, const scene::Shape& shape,
                                                   const Transform& render_from_shape);
 
-// A light for each shape of the scene (but those of instances) whose material's emission is one value other
-// than black, appended to `lights`. The result tells each shape's light, or no_index; it is empty when none
-// has one.
+// A light for each shape of the scene (but those of instances, and those that move) whose material's emission
+// is one value other than black, appended to `lights`. The result tells each shape's light, or no_index; it
+// is empty when none has one.
 std::vector<std::uint32_t> add_glowing_shapes(const scene::Scene& scene, const Transform& render_from_world,
                                               std::vector<optics::Light>& lights);
 

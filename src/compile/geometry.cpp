@@ -53,35 +53,60 @@ Geometry::Geometry(const scene::Scene& scene, const Features& features, const Ve
   prototypes_.reserve(scene.prototypes.size());  // groups point to earlier ones
   for (const scene::Prototype& p : scene.prototypes) {
     Group group(meshes_, features.normals);
-    group.add(p.shapes);
-    group.add(p.instances, prototypes_);
+    group.add(p.shapes, p.moving_shapes);
+    group.add(p.instances, p.moving_instances, prototypes_);
     group.finish();
     prototypes_.push_back(std::move(group));
   }
-  world_.add(scene.shapes, origin, glows);
-  world_.add(scene.instances, prototypes_, origin);
+  world_.add(scene.shapes, scene.motion.shapes, origin, glows);
+  world_.add(scene.instances, scene.motion.instances, prototypes_, origin);
   light_surfaces_.reserve(lights.size());
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const auto surface = light_surface(scene.lights[i], lights[i]);
     if (!surface) continue;
     light_surfaces_.push_back(*surface);
-    world_.add_light(light_surfaces_.back(), i);
+    world_.add_light(light_surfaces_.back(), i, moving_light_surface(scene, i, origin));
   }
   world_.finish();
 
   if (volumes.size() > few_things) {
     std::vector<Bounds> boxes(volumes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-      boxes[i] = placed_bounds(*bounds(volumes[i].shape, meshes_), volumes[i].render_from_shape);
+    for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = volume_bounds(volumes[i]);
     volume_tree_.emplace(boxes);
   }
 }
 
+// The keys of a light's surface, in render space; null when it stands still.
+const std::vector<scene::ShapeInstance>* Geometry::moving_light_surface(const scene::Scene& scene,
+                                                                        std::uint32_t light,
+                                                                        const Vec3d& origin) {
+  const auto& moving = scene.motion.lights;
+  const auto found =
+      std::find_if(moving.begin(), moving.end(), [&](const auto& m) { return m.index == light; });
+  if (found == moving.end()) return nullptr;
+  std::vector<scene::ShapeInstance>& keys = light_surface_keys_.emplace_back();
+  for (const scene::LightInstance& key : found->keys) {
+    keys.push_back(*light_surface(key, key.light));
+    keys.back().world_from_object.t -= origin;
+  }
+  return &keys;
+}
+
+Bounds Geometry::volume_bounds(const CompiledVolume& v) const {
+  if (!v.motion) return placed_bounds(*bounds(v.shape, meshes_), v.render_from_shape);
+  const auto& keys = *v.motion;
+  return swept_bounds(keys.size(), [&](std::size_t i, std::size_t j) {
+    return placed_bounds(*bounds(keys[i].shape, meshes_),
+                         Transform::translate(-v.origin) * keys[j].world_from_shape);
+  });
+}
+
 std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) const {
-  const auto found = world_.closest_hit({ray.origin, ray.direction, ray.t_max}, kind);
+  const auto found = world_.closest_hit({ray.origin, ray.direction, ray.t_max, ray.time}, kind);
   if (!found) return std::nullopt;
   SurfaceHit hit;
   hit.t = found->t;
+  hit.time = ray.time;
   hit.position = found->position;
   hit.normal = normalize(found->normal);
   hit.position_object = found->position_object;
@@ -103,7 +128,7 @@ std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) co
 }
 
 bool Geometry::occluded(const Ray& ray, std::uint32_t target_light) const {
-  return world_.occluded({ray.origin, ray.direction, ray.t_max}, target_light);
+  return world_.occluded({ray.origin, ray.direction, ray.t_max, ray.time}, target_light);
 }
 
 void Geometry::volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const {
@@ -112,8 +137,14 @@ void Geometry::volume_intervals(const Ray& ray, RayKind kind, std::vector<Volume
   const auto test = [&](std::uint32_t index) {
     const CompiledVolume& v = volumes_[index];
     if (kind == RayKind::camera && !v.visible) return ray.t_max;
-    inside(v.shape, meshes_, v.shape_from_render.point(ray.origin), v.shape_from_render.vector(ray.direction),
-           ray.t_max, stays);
+    if (v.motion) {
+      const CompiledVolume::Place now = v.moved(ray.time);
+      inside(now.shape, meshes_, now.shape_from_render.point(ray.origin),
+             now.shape_from_render.vector(ray.direction), ray.t_max, stays);
+    } else {
+      inside(v.shape, meshes_, v.shape_from_render.point(ray.origin),
+             v.shape_from_render.vector(ray.direction), ray.t_max, stays);
+    }
     for (const Intervald& stay : stays) out.push_back({stay.lo, stay.hi, index});
     return ray.t_max;
   };

@@ -1,6 +1,7 @@
 // The surfaces and volume bounds of a compiled scene, placed in render space.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,10 +29,16 @@ class Geometry {
   std::optional<Bounds> bounds_of(const scene::Shape& shape) const { return bounds(shape, meshes_); }
   void volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const;
 
+  // The box of a volume in render space, over all of its way.
+  Bounds volume_bounds(const CompiledVolume& volume) const;
+
  private:
+  const std::vector<scene::ShapeInstance>* moving_light_surface(const scene::Scene& scene,
+                                                                std::uint32_t light, const Vec3d& origin);
   std::vector<CompiledMesh> meshes_;
   std::vector<Group> prototypes_;
   std::vector<scene::ShapeInstance> light_surfaces_;
+  std::deque<std::vector<scene::ShapeInstance>> light_surface_keys_;
   Group world_;
   std::span<const CompiledVolume> volumes_;
   std::optional<BoundsTree> volume_tree_;

@@ -20,7 +20,7 @@ float largest_sample(const MajorantGrid& grid, const Vec3d& corner, vm::Machine&
                          static_cast<double>(i / (places * places))};
     const Vec3d at = corner + (place + Vec3d(0.5)) * grid.cell_size() * (1.0 / places);
     const Vec3d in_world =
-        grid.domain().world_from_medium ? grid.domain().world_from_medium->point(at) : Vec3d();
+        grid.domain().world_from_medium.empty() ? Vec3d() : grid.domain().world_from_medium[0].point(at);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       p[axis][i] = static_cast<float>(at[axis]);
       world[axis][i] = static_cast<float>(in_world[axis]);

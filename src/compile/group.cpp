@@ -31,42 +31,86 @@ Bounds placed_bounds(const Bounds& b, const Transform& to) {
   return out;
 }
 
+Bounds united(const Bounds& a, const Bounds& b) {
+  Bounds out;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.lo[axis] = std::min(a.lo[axis], b.lo[axis]);
+    out.hi[axis] = std::max(a.hi[axis], b.hi[axis]);
+  }
+  return out;
+}
+
 Transform Group::group_from_object(const Transform& placed, std::uint32_t light) const {
   Transform out = placed;
   if (light == no_index) out.t -= offset_;  // the surfaces of lights are in the group's space already
   return out;
 }
 
-void Group::add(std::span<const scene::ShapeInstance> surfaces, const Vec3d& offset,
+void Group::add(std::span<const scene::ShapeInstance> surfaces,
+                std::span<const scene::Moving<scene::ShapeInstance>> moving, const Vec3d& offset,
                 std::span<const std::uint32_t> glows) {
   offset_ = offset;
   surfaces_.reserve(surfaces_.size() + surfaces.size());
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     surfaces_.push_back({inverse_of(group_from_object(surfaces[i].world_from_object, no_index)), &surfaces[i],
                          no_index, glows.empty() ? no_index : glows[i]});
+  for (const auto& m : moving) surfaces_[m.index].motion = &m.keys;
 }
 
-void Group::add_light(const scene::ShapeInstance& surface, std::uint32_t light) {
-  surfaces_.push_back({inverse_of(surface.world_from_object), &surface, light, no_index});
+void Group::add_light(const scene::ShapeInstance& surface, std::uint32_t light,
+                      const std::vector<scene::ShapeInstance>* motion) {
+  surfaces_.push_back({inverse_of(surface.world_from_object), &surface, light, no_index, motion});
 }
 
-void Group::add(std::span<const scene::Instance> instances, std::span<const Group> prototypes,
+void Group::add(std::span<const scene::Instance> instances,
+                std::span<const scene::Moving<scene::Instance>> moving, std::span<const Group> prototypes,
                 const Vec3d& offset) {
   offset_ = offset;
   instances_.reserve(instances.size());
-  for (const scene::Instance& i : instances) {
+  for (std::size_t k = 0; k < instances.size(); ++k) {
+    const scene::Instance& i = instances[k];
     const Group& prototype = prototypes[i.prototype.index];
+    const bool moves = !moving.empty() && moving.front().index == k;
     if (!prototype.empty())
-      instances_.push_back({inverse_of(group_from_object(i.world_from_object, no_index)), &i, &prototype});
+      instances_.push_back({inverse_of(group_from_object(i.world_from_object, no_index)), &i, &prototype,
+                            moves ? &moving.front().keys : nullptr});
+    if (moves) moving = moving.subspan(1);
   }
 }
 
+template <class Visit>
+bool Group::placed(const PlacedSurface& s, double time, Visit&& visit) const {
+  if (!s.motion) {
+    visit(s.surface->shape, s.object_from_group);
+    return true;
+  }
+  const scene::ShapeInstance now = scene::at(*s.motion, time);
+  const auto inverse = group_from_object(now.world_from_object, s.light).inverse();
+  if (inverse) visit(now.shape, *inverse);
+  return inverse.has_value();
+}
+
+std::optional<Transform> Group::object_from_group(const PlacedInstance& i, double time) const {
+  if (!i.motion) return i.object_from_group;
+  return group_from_object(scene::at(*i.motion, time).world_from_object, no_index).inverse();
+}
+
 Bounds Group::box(const PlacedSurface& s) const {
-  return placed_bounds(*compile::bounds(s.surface->shape, meshes_),
-                       group_from_object(s.surface->world_from_object, s.light));
+  const auto at = [&](const scene::ShapeInstance& shape, const scene::ShapeInstance& place) {
+    return placed_bounds(*compile::bounds(shape.shape, meshes_),
+                         group_from_object(place.world_from_object, s.light));
+  };
+  if (!s.motion) return at(*s.surface, *s.surface);
+  const auto& keys = *s.motion;
+  return swept_bounds(keys.size(), [&](std::size_t i, std::size_t j) { return at(keys[i], keys[j]); });
 }
 Bounds Group::box(const PlacedInstance& i) const {
-  return placed_bounds(*i.prototype->bounds(), group_from_object(i.instance->world_from_object, no_index));
+  const auto at = [&](const scene::Instance& place) {
+    return placed_bounds(*i.prototype->bounds(), group_from_object(place.world_from_object, no_index));
+  };
+  if (!i.motion) return at(*i.instance);
+  const auto& keys = *i.motion;
+  return swept_bounds(keys.size(), [&](std::size_t, std::size_t k) { return at(keys[k]); });
 }
 
 void Group::finish() {
@@ -86,11 +130,7 @@ void Group::finish() {
   if (boxes.size() > few_things) tree_.emplace(boxes);
   if (boxes.empty() || bounded_surfaces_ < surfaces_.size() || bounded_instances_ < instances_.size()) return;
   bounds_ = boxes.front();
-  for (const Bounds& b : boxes)
-    for (int axis = 0; axis < 3; ++axis) {
-      bounds_->lo[axis] = std::min(bounds_->lo[axis], b.lo[axis]);
-      bounds_->hi[axis] = std::max(bounds_->hi[axis], b.hi[axis]);
-    }
+  for (const Bounds& b : boxes) bounds_ = united(*bounds_, b);
 }
 
 template <class Test>
@@ -122,16 +162,21 @@ std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) co
     if (index < surfaces_.size()) {
       const PlacedSurface& s = surfaces_[index];
       if (kind == RayKind::camera && !s.surface->visible) return t_max;
-      const auto hit = intersect(s.surface->shape, meshes_, s.object_from_group.point(ray.origin),
-                                 s.object_from_group.vector(ray.direction), limit);
+      std::optional<ShapeHit> hit;
+      placed(s, ray.time, [&](const scene::Shape& shape, const Transform& object_from_group) {
+        hit = intersect(shape, meshes_, object_from_group.point(ray.origin),
+                        object_from_group.vector(ray.direction), limit);
+      });
       if (!hit || (hit->t >= t_max && index > best)) return t_max;
       surface_hit = *hit;
       t = hit->t;
     } else {
       const PlacedInstance& i = instances_[index - surfaces_.size()];
       if (kind == RayKind::camera && !i.instance->visible) return t_max;
+      const auto to_object = object_from_group(i, ray.time);
+      if (!to_object) return t_max;
       const auto hit = i.prototype->closest_hit(
-          {i.object_from_group.point(ray.origin), i.object_from_group.vector(ray.direction), limit}, kind);
+          {to_object->point(ray.origin), to_object->vector(ray.direction), limit, ray.time}, kind);
       if (!hit || (hit->t >= t_max && index > best)) return t_max;
       instance_hit = *hit;
       t = hit->t;
@@ -142,7 +187,8 @@ std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) co
   if (best == no_index) return std::nullopt;
   if (best < surfaces_.size()) {
     const PlacedSurface& s = surfaces_[best];
-    const Transform to_group = group_from_object(s.surface->world_from_object, s.light);
+    const Transform to_group = group_from_object(
+        s.motion ? scene::at(*s.motion, ray.time).world_from_object : s.surface->world_from_object, s.light);
     GroupHit hit{surface_hit.t,
                  to_group.point(surface_hit.position),
                  to_group.normal(surface_hit.normal),
@@ -162,7 +208,8 @@ std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) co
     return hit;
   }
   const PlacedInstance& i = instances_[best - surfaces_.size()];
-  const Transform to_group = group_from_object(i.instance->world_from_object, no_index);
+  const Transform to_group = group_from_object(
+      i.motion ? scene::at(*i.motion, ray.time).world_from_object : i.instance->world_from_object, no_index);
   GroupHit hit = instance_hit;
   hit.position = to_group.point(hit.position);
   hit.normal = to_group.normal(hit.normal);
@@ -180,14 +227,17 @@ bool Group::occluded(const GroupRay& ray, std::uint32_t target_light) const {
     if (index < surfaces_.size()) {
       const PlacedSurface& s = surfaces_[index];
       if (s.light != no_index && s.light == target_light) return ray.t_max;
-      blocked = intersect(s.surface->shape, meshes_, s.object_from_group.point(ray.origin),
-                          s.object_from_group.vector(ray.direction), ray.t_max)
-                    .has_value();
+      placed(s, ray.time, [&](const scene::Shape& shape, const Transform& object_from_group) {
+        blocked = intersect(shape, meshes_, object_from_group.point(ray.origin),
+                            object_from_group.vector(ray.direction), ray.t_max)
+                      .has_value();
+      });
     } else {
       const PlacedInstance& i = instances_[index - surfaces_.size()];
-      blocked = i.prototype->occluded(
-          {i.object_from_group.point(ray.origin), i.object_from_group.vector(ray.direction), ray.t_max},
-          target_light);
+      const auto to_object = object_from_group(i, ray.time);
+      blocked = to_object && i.prototype->occluded({to_object->point(ray.origin),
+                                                    to_object->vector(ray.direction), ray.t_max, ray.time},
+                                                   target_light);
     }
     return blocked ? -1.0 : ray.t_max;
   });

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "compile/bounds_tree.h"
@@ -19,8 +20,9 @@ namespace tyndall::compile {
 struct PlacedSurface {
   Transform object_from_group;
   const scene::ShapeInstance* surface = nullptr;
-  std::uint32_t light = no_index;  // of the surface of an area light
-  std::uint32_t glow = no_index;   // the light that its glowing material makes it
+  std::uint32_t light = no_index;                             // of the surface of an area light
+  std::uint32_t glow = no_index;                              // the light that its glowing material makes it
+  const std::vector<scene::ShapeInstance>* motion = nullptr;  // keys over the shutter; null: it stands still
 };
 
 // The nearest hit in a group's space.
@@ -40,7 +42,7 @@ struct GroupHit {
 // A ray in a group's space; the direction has any length but zero, t is the caller's.
 struct GroupRay {
   Vec3d origin, direction;
-  double t_max = 0;
+  double t_max = 0, time = 0;
 };
 
 class Group {
@@ -51,11 +53,14 @@ class Group {
   // Adds things; a group is ready for rays after finish(). The scene's elements must stay where they are.
   // `offset` is the group's zero in the space that the things' transforms lead to.
   // `glows`: for each surface the light that its material makes it, or empty.
-  void add(std::span<const scene::ShapeInstance> surfaces, const Vec3d& offset = {},
+  // `moving` tells which of the things move, and how.
+  void add(std::span<const scene::ShapeInstance> surfaces,
+           std::span<const scene::Moving<scene::ShapeInstance>> moving, const Vec3d& offset = {},
            std::span<const std::uint32_t> glows = {});
-  void add_light(const scene::ShapeInstance& surface, std::uint32_t light);
-  void add(std::span<const scene::Instance> instances, std::span<const Group> prototypes,
-           const Vec3d& offset = {});
+  void add_light(const scene::ShapeInstance& surface, std::uint32_t light,
+                 const std::vector<scene::ShapeInstance>* motion = nullptr);
+  void add(std::span<const scene::Instance> instances, std::span<const scene::Moving<scene::Instance>> moving,
+           std::span<const Group> prototypes, const Vec3d& offset = {});
   void finish();
 
   // Nothing when the group is empty or reaches to infinity.
@@ -72,10 +77,16 @@ class Group {
     Transform object_from_group;
     const scene::Instance* instance = nullptr;
     const Group* prototype = nullptr;
+    const std::vector<scene::Instance>* motion = nullptr;
   };
   Bounds box(const PlacedSurface& s) const;
   Bounds box(const PlacedInstance& i) const;
   Transform group_from_object(const Transform& placed, std::uint32_t light) const;
+  // Calls visit(shape, object_from_group) for a surface as it is at a ray's time; false where it is flat
+  // then.
+  template <class Visit>
+  bool placed(const PlacedSurface& s, double time, Visit&& visit) const;
+  std::optional<Transform> object_from_group(const PlacedInstance& i, double time) const;
   // Calls test(index) for what the ray may meet: surfaces first, then instances, as numbered; test returns
   // the t beyond which nothing matters, or a negative number to stop.
   template <class Test>
@@ -94,6 +105,19 @@ class Group {
 
 // The box around a shape's own box where a transform puts it.
 Bounds placed_bounds(const Bounds& b, const Transform& to);
+// The box around both.
+Bounds united(const Bounds& a, const Bounds& b);
+// The box around all places of a thing that moves: `box(shape key, transform key)` is that of the thing with
+// the shape of one moment and the place of another. Between two keys every point of it is a mixture of the
+// four of such boxes (a product of two straight ways).
+template <class Box>
+Bounds swept_bounds(std::size_t keys, Box&& box) {
+  Bounds all = box(0, 0);
+  for (std::size_t k = 0; k + 1 < keys; ++k)
+    for (const auto& [i, j] : {std::pair{k, k + 1}, std::pair{k + 1, k}, std::pair{k + 1, k + 1}})
+      all = united(all, box(i, j));
+  return all;
+}
 
 // Up to this many things a plain loop is faster than a tree.
 inline constexpr std::size_t few_things = 8;

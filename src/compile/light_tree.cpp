@@ -30,10 +30,12 @@ double cost(const optics::LightBounds& b) {
 
 }  // namespace
 
-LightTree::LightTree(std::span<const optics::Light> lights) : leaf_of_light_(lights.size(), no_leaf) {
+LightTree::LightTree(std::span<const optics::Light> lights, const std::vector<bool>& left_out)
+    : leaf_of_light_(lights.size(), no_leaf) {
   std::vector<Item> items;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    if (const auto bounds = optics::bounds_of(lights[i]))
+    const bool out = i < left_out.size() && left_out[i];
+    if (const auto bounds = out ? std::nullopt : optics::bounds_of(lights[i]))
       items.push_back({*bounds, i});
     else
       others_.push_back(i);

@@ -12,9 +12,10 @@ namespace tyndall::compile {
 
 class LightTree {
  public:
-  explicit LightTree(std::span<const optics::Light> lights);
+  // `left_out`: lights that are chosen in another way.
+  explicit LightTree(std::span<const optics::Light> lights, const std::vector<bool>& left_out = {});
 
-  // Lights at infinity, which are in no tree; in order.
+  // Lights at infinity and those left out, which are in no tree; in order.
   std::span<const std::uint32_t> others() const { return others_; }
   bool holds(std::uint32_t light) const { return leaf_of_light_[light] != no_leaf; }
   // What the tree's lights together may bring to the stretch; 0: nothing.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/numerics.h"
 
 namespace tyndall::compile {
 
@@ -128,14 +129,20 @@ void MajorantGrid::add_box(const Vec3d& lo, const Vec3d& hi, BoundsScratch& scra
     scratch.p[axis].push_back(below(low[axis]));
     scratch.p[axis + 3].push_back(above(high[axis]));
   }
-  if (!domain_.world_from_medium) return;
-  const Transform& m = *domain_.world_from_medium;
-  const Vec3d center = m.point((low + high) * 0.5), half = (high - low) * 0.5;
+  if (domain_.world_from_medium.empty()) return;
+  Vec3d lowest(infinity), highest(-infinity);
+  for (const Transform& m : domain_.world_from_medium) {
+    const Vec3d center = m.point((low + high) * 0.5), half = (high - low) * 0.5;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double reach =
+          std::abs(m.x[axis]) * half.x + std::abs(m.y[axis]) * half.y + std::abs(m.z[axis]) * half.z;
+      lowest[axis] = std::min(lowest[axis], center[axis] - reach);
+      highest[axis] = std::max(highest[axis], center[axis] + reach);
+    }
+  }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double reach =
-        std::abs(m.x[axis]) * half.x + std::abs(m.y[axis]) * half.y + std::abs(m.z[axis]) * half.z;
-    scratch.world[axis].push_back(below(center[axis] - reach));
-    scratch.world[axis + 3].push_back(above(center[axis] + reach));
+    scratch.world[axis].push_back(below(lowest[axis]));
+    scratch.world[axis + 3].push_back(above(highest[axis]));
   }
 }
 
@@ -148,7 +155,7 @@ void MajorantGrid::evaluate(std::size_t boxes, BoundsScratch& scratch) const {
                  rows[axis + 3].data());
   };
   set(vm::Input::p_x, scratch.p);
-  if (domain_.world_from_medium) set(vm::Input::P_x, scratch.world);
+  if (!domain_.world_from_medium.empty()) set(vm::Input::P_x, scratch.world);
   inputs.set(vm::Input::time, &domain_.time.lo, &domain_.time.hi);
   scratch.values.resize(boxes * medium_.full.outputs.size());
   scratch.machine.run(medium_.full, inputs, boxes, scratch.values);

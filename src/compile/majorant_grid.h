@@ -51,10 +51,11 @@ class MajorantGrid {
  public:
   // Where a grid holds. Two volumes with the same medium and an equal domain share one.
   struct Domain {
-    Bounds box;                                  // in the medium's space p
-    std::optional<Transform> world_from_medium;  // set when the program reads P
-    Interval<float> time;                        // both ends included: one slab of the shutter, or one moment
-    std::uint32_t cells = 0;                     // at most, over the whole box
+    Bounds box;  // in the medium's space p
+    // Set when the program reads P: where p is in the world, at the ends of straight ways when it moves.
+    std::vector<Transform> world_from_medium;
+    Interval<float> time;     // both ends included: one slab of the shutter, or one moment
+    std::uint32_t cells = 0;  // at most, over the whole box
   };
 
   // Keeps a reference to the medium. Makes no cells yet.

@@ -27,10 +27,10 @@ class Solids {
     SolidRank rank;
     double ior = 1;
   };
-  std::optional<Holder> at(const Vec3d& position, std::uint32_t except) const;
+  std::optional<Holder> at(const Vec3d& position, double time, std::uint32_t except) const;
 
   // Takes out of the stays of volumes with a priority what lies in bodies above them.
-  void cut(const Vec3d& origin, const Vec3d& direction, double t_max, std::span<const CompiledVolume> volumes,
+  void cut(const Ray& ray, std::span<const CompiledVolume> volumes,
            std::vector<VolumeInterval>& intervals) const;
 
  private:
@@ -39,9 +39,14 @@ class Solids {
     Transform shape_from_render;
     SolidRank rank;
     double ior;
+    const std::vector<scene::ShapeInstance>* motion;  // keys over the shutter; null: it stands still
   };
+  // Calls visit(shape, shape_from_render) for the body as it is at a ray's time.
+  template <class Visit>
+  void placed(const Solid& solid, double time, Visit&& visit) const;
   std::vector<Solid> list_;
   std::span<const CompiledMesh> meshes_;
+  Vec3d origin_;
 };
 
 }  // namespace tyndall::compile

@@ -60,6 +60,27 @@ double widest_step(const Bounds& in_world) {
   return std::max({extent.x, extent.y, extent.z}) / 16;
 }
 
+// Where the medium's space is looked into, at any time of the shutter.
+Bounds box_in_medium(const CompiledScene& world, const CompiledVolume& volume) {
+  const auto at = [&](double time) {
+    const CompiledVolume::Place now = volume.moved(time);
+    const auto render_from_shape = now.shape_from_render.inverse();
+    CHECK(render_from_shape.has_value());
+    return placed_bounds(*world.geometry->bounds_of(now.shape), now.medium_from_render * *render_from_shape);
+  };
+  if (!volume.motion)
+    return placed_bounds(*world.geometry->bounds_of(volume.shape),
+                         volume.medium_from_render * volume.render_from_shape);
+  // A shape that moves within its medium goes a way that is no straight one: many moments of it, and room.
+  constexpr int moments = 16;  // from one key to the next
+  const int all = moments * static_cast<int>(volume.motion->size() - 1);
+  const Bounds first = at(0);
+  Bounds swept = first;
+  for (int k = 1; k <= all; ++k) swept = united(swept, at(k / double(all)));
+  const Vec3d room = (swept.hi - swept.lo - (first.hi - first.lo)) * (1.0 / moments);
+  return {swept.lo - room, swept.hi + room};
+}
+
 // Walking through a grid costs about as much as marching a few dozen cheap segments.
 constexpr double least_plain_share = 0.04;
 
@@ -77,7 +98,8 @@ void add_grids(CompiledScene& world) {
   std::map<Key, std::uint32_t> known;
   std::vector<MajorantGrid::Domain> domains;
   std::vector<std::uint32_t> media;
-  const auto time = static_cast<float>(world.scene.time);
+  const std::vector<scene::Volume> volumes = scene::all_volumes(world.scene);
+  const Interval<float> shutter{world.seconds_at(0), world.seconds_at(1)};
   for (std::uint32_t v = 0; v < world.volumes.size(); ++v) {
     CompiledVolume& volume = world.volumes[v];
     const std::optional<Bounds> shape = world.geometry->bounds_of(volume.shape);
@@ -85,13 +107,15 @@ void add_grids(CompiledScene& world) {
     volume.widest_step = widest_step(placed_bounds(*shape, volume.render_from_shape));
     if (world.media[volume.medium].homogeneous) continue;
     MajorantGrid::Domain domain;
-    domain.box = snapped(placed_bounds(*shape, volume.medium_from_render * volume.render_from_shape));
-    domain.time = {time, time};
+    domain.box = snapped(box_in_medium(world, volume));
+    domain.time = shutter;
     const bool in_world = reads_world(world.scene.media[volume.medium].full);
     if (in_world) {
-      const auto render_from_medium = volume.medium_from_render.inverse();
-      CHECK(render_from_medium.has_value());
-      domain.world_from_medium = Transform::translate(world.origin) * *render_from_medium;
+      if (volume.motion)
+        for (const scene::Volume& key : *volume.motion)
+          domain.world_from_medium.push_back(key.world_from_medium);
+      else
+        domain.world_from_medium = {volumes[v].world_from_medium};
     }
     domain.cells = cells_for(pixels_across(world, volume, *shape));
     const Bounds& b = domain.box;

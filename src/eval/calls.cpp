@@ -76,10 +76,10 @@ std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tr
     const Parameter& parameter = parameters[i];
     Binding binding{parameter.name.symbol, {}, BindingKind::parameter, parameter.name.span, false};
     if (argument_of[i] != absent) {
-      binding.value = evaluate(call_tree, arguments[argument_of[i]].value, call_scope);
+      evaluate_into(binding, call_tree, arguments[argument_of[i]].value, call_scope, *scope);
     } else if (parameter.default_value.valid()) {
       frames_.push_back({nullptr, call});  // a default sees what the function sees
-      binding.value = evaluate(definition_tree, parameter.default_value, scope);
+      evaluate_into(binding, definition_tree, parameter.default_value, scope, *scope);
       hold(*scope, binding.value);
       frames_.pop_back();
     } else {

@@ -70,7 +70,10 @@ Value Evaluator::input(Special special) {
   };
   switch (special) {
     case Special::time:
-      if (!in_body()) return Value::number(context_.time);
+      if (!in_body()) {
+        ++context_.time_reads;
+        return Value::number(context_.time);
+      }
       return Value::of(Type::number, {Scalar{0, builder_->input(vm::Input::time)}});
     case Special::frame:
       return Value::number(context_.frame);
@@ -96,7 +99,11 @@ Value Evaluator::input(Special special) {
 Value Evaluator::value_of_name(SymbolId symbol, Span span, const Scope& scope) {
   const Special special = names().special(symbol);
   if (special == Special::time || special == Special::frame || sees(special)) return input(special);
-  if (const Binding* binding = scope.find(symbol)) return binding->value;
+  if (const Binding* binding = scope.find(symbol)) {
+    if (binding->timed)
+      return in_body() ? function_of_time(*binding, span) : (++context_.time_reads, binding->value);
+    return binding->value;
+  }
   if (special == Special::pi) return input(special);
   if (const BuiltinEntry* entry = names().builtin(symbol)) {
     if (entry->row->result == "phase" && entry->row->parameters.empty()) {
@@ -164,6 +171,32 @@ void Evaluator::hold(const Scope& scope, const Value& value) {
   if (kept.empty() || kept.back().get() != &scope) kept.push_back(scope.shared_from_this());
 }
 
+Value Evaluator::function_of_time(const Binding& binding, Span use) {
+  if (binding.value.width() == 0 && binding.value.type != Type::list) return binding.value;
+  frames_.push_back({nullptr, use});  // it sees what the scene sees
+  Value value = evaluate(*binding.timed->tree, binding.timed->expr, binding.timed->scope);
+  frames_.pop_back();
+  return value;
+}
+
+Value Evaluator::evaluate_variable(const SyntaxTree& tree, syntax::ExprId expr,
+                                   const std::shared_ptr<Scope>& scope) {
+  const std::uint64_t reads = context_.time_reads;
+  Value value = evaluate(tree, expr, scope);
+  if (in_body() || !frames_.empty() || context_.time_reads == reads || value.is_error()) return value;
+  return error(tree[expr].span, "a `var` of a scene may not depend on `time`",
+               "use `let`, or a function: what they give moves while the shutter is open");
+}
+
+void Evaluator::evaluate_into(Binding& binding, const SyntaxTree& tree, syntax::ExprId expr,
+                              const std::shared_ptr<Scope>& scope, const Scope& holder) {
+  const std::uint64_t reads = context_.time_reads;
+  binding.value = evaluate(tree, expr, scope);
+  if (!context_.shutter_open || in_body() || context_.time_reads == reads) return;
+  binding.timed = std::make_shared<const Deferred>(Deferred{&tree, expr, scope});
+  context_.names->scopes_with_definitions.push_back(holder.shared_from_this());
+}
+
 void Evaluator::bind(const std::shared_ptr<Scope>& scope, Binding binding) {
   const Special special = names().special(binding.symbol);
   if (special == Special::time || special == Special::frame || sees(special)) {
@@ -205,6 +238,10 @@ std::string Evaluator::key_of(const Body& body, const Scope& scope) {
     if (const Binding* binding = scope.find(symbol)) {
       fmt::format_to(std::back_inserter(key), ";{}=", symbol.index);
       append_key(key, binding->value);
+      // Equal when the shutter opens is not equal all the while.
+      if (binding->timed)
+        fmt::format_to(std::back_inserter(key), "({}@{})", binding->timed->expr.index,
+                       fmt::ptr(binding->timed->scope.get()));
     }
   return key;
 }
@@ -214,9 +251,11 @@ bool Evaluator::define(const SyntaxTree& tree, const Item& item, const std::shar
     bind(scope, {name.symbol, std::move(value), kind, name.span, false});
   };
   if (const auto* let = std::get_if<LetItem>(&item.node)) {
-    add(let->name, evaluate(tree, let->value, scope), BindingKind::constant);
+    Binding binding{let->name.symbol, {}, BindingKind::constant, let->name.span, false};
+    evaluate_into(binding, tree, let->value, scope, *scope);
+    bind(scope, std::move(binding));
   } else if (const auto* var = std::get_if<VarItem>(&item.node)) {
-    add(var->name, evaluate(tree, var->value, scope), BindingKind::variable);
+    add(var->name, evaluate_variable(tree, var->value, scope), BindingKind::variable);
   } else if (const auto* function = std::get_if<FunctionItem>(&item.node)) {
     check_parameters(tree, function->parameters, nullptr);
     check_definition(*this, tree, item, scope);

@@ -42,8 +42,10 @@ struct Context {
   const Sources* sources = nullptr;
   syntax::Symbols* symbols = nullptr;
   Diagnostics* diagnostics = nullptr;
-  double time = 0;  // seconds, when the shutter opens
+  double time = 0;  // seconds, when the shutter opens; or a moment while it is open, when that is asked for
   double frame = 0;
+  bool shutter_open = false;     // for some time: in bodies what depends on `time` is a function of it
+  std::uint64_t time_reads = 0;  // how often scene code asked for `time`, or for what depends on it
   SourceId main_source{0};  // the file whose unused names are warned of
   Unread unread{};
   ImageReader* images = nullptr;   // none: there are no pictures
@@ -82,6 +84,14 @@ class Evaluator {
   // Notes that `value` comes to stand in `scope`: if it holds scopes in its turn, the run's end must let go
   // of it.
   void hold(const Scope& scope, const Value& value);
+
+  // The value of a `var`, which in a scene's own blocks may not depend on `time`: reported.
+  Value evaluate_variable(const syntax::SyntaxTree& tree, syntax::ExprId expr,
+                          const std::shared_ptr<Scope>& scope);
+
+  // Evaluates an expression for a binding, and notes there whether it depends on `time`. Scene code only.
+  void evaluate_into(Binding& binding, const syntax::SyntaxTree& tree, syntax::ExprId expr,
+                     const std::shared_ptr<Scope>& scope, const Scope& holder);
 
   // Binds the call's arguments to the definition's parameters (positional, named, defaults evaluated in
   // order) in a new scope below the definition's. Reports unknown, missing and doubled ones. Null after an
@@ -171,6 +181,7 @@ class Evaluator {
   class Nested;  // counts the nesting of evaluations
 
   Value input(Special special);
+  Value function_of_time(const Binding& binding, Span use);
   Value value_of_name(syntax::SymbolId symbol, Span span, const Scope& scope);
   Value unknown_name(syntax::SymbolId symbol, Span span, const Scope* scope,
                      std::span<const syntax::SymbolId> locals, std::optional<syntax::BodyKind> inputs = {});

@@ -10,7 +10,16 @@
 
 namespace tyndall::eval {
 
+struct Scope;
+
 enum class BindingKind : std::uint8_t { constant, variable, parameter };
+
+// An expression and where it stands.
+struct Deferred {
+  const syntax::SyntaxTree* tree = nullptr;
+  syntax::ExprId expr;
+  std::shared_ptr<Scope> scope;
+};
 
 struct Binding {
   syntax::SymbolId symbol;
@@ -18,6 +27,8 @@ struct Binding {
   BindingKind kind = BindingKind::constant;
   Span definition;
   mutable bool used = false;
+  // Set while the shutter is open for a value that depends on `time`: bodies evaluate it as a function of it.
+  std::shared_ptr<const Deferred> timed{};
 };
 
 // One scope. Definitions in the same scope must differ in name; an inner scope may hide an outer one's.

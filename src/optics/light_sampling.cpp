@@ -327,7 +327,7 @@ double importance(const Light& light, const Vec3d& origin, const Vec3d& directio
             return nearest_irradiance(i, l.radius, l.center, origin, direction, t0, t1);
           },
           [&](const MeshLight& l) {
-            if (!l.emitter || !(l.emitter->area() > 0)) return 0.0;
+            if (!l.drawn || !l.emitter || !(l.emitter->area() > 0)) return 0.0;
             // A convex shape shows about a quarter of its area to any side.
             const double i = mean(radiance(l)) * l.emitter->area() / 2;
             return nearest_irradiance(i, l.emitter->radius(), l.emitter->center(), origin, direction, t0, t1);

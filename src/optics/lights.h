@@ -121,6 +121,7 @@ struct MeshLight {
   bool visible = true;
   Transform world_from_shape{};
   bool both_sides = false;                   // of shapes whose material glows
+  bool drawn = true;                         // false: never drawn, only met
   std::shared_ptr<const Emitter> emitter{};  // the shape where it stands, made by `compile`
   template <class F>
   static void fields(F&& field) {

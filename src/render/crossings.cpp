@@ -28,7 +28,7 @@ bool certainly_stops(const CompiledScene& world, const SurfaceHit& hit) {
 Ray behind(const CompiledScene& world, const Ray& ray, const SurfaceHit& hit) {
   const Vec3d off = hit.normal * compile::surface_offset(world, hit.position);
   return {dot(hit.normal, ray.direction) > 0 ? hit.position + off : hit.position - off, ray.direction,
-          ray.t_max - hit.t};
+          ray.t_max - hit.t, ray.time};
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ enum class Decision : std::uint8_t {
   roulette,
   flight,  // null collisions
   aimed,   // light, -, t, 2 of the light's surface
+  time,    // of a path, while the shutter is open
 };
 
 // The sequence of a decision at one path segment. Branches: a camera ray continues both in the volume and

@@ -19,13 +19,14 @@ constexpr double shadow_end = 1 - 0x1p-40;
 
 // What a mesh light or a glowing shape hides of itself is dark, so its surface is not skipped: the ray ends
 // before the point it aims at.
-ShadowRay shadow_ray(const compile::CompiledScene& world, const Vec3d& from, const optics::LightSample& light,
-                     std::uint32_t index, const Rgb& contribution, std::uint32_t seed) {
+ShadowRay shadow_ray(const compile::CompiledScene& world, const Vec3d& from, double time,
+                     const optics::LightSample& light, std::uint32_t index, const Rgb& contribution,
+                     std::uint32_t seed) {
   const double end = light.distance * shadow_end;
   if (!std::holds_alternative<optics::MeshLight>(world.lights[index]))
-    return {{from, light.direction, end}, index, contribution, seed};
+    return {{from, light.direction, end, time}, index, contribution, seed};
   const double margin = 2 * compile::surface_offset(world, from + light.direction * light.distance);
-  return {{from, light.direction, std::max(end - margin, 0.0)}, compile::no_index, contribution, seed};
+  return {{from, light.direction, std::max(end - margin, 0.0), time}, compile::no_index, contribution, seed};
 }
 
 void LightStrategies::set(const compile::CompiledScene& world, const March& march, const Rgb& throughput,
@@ -40,7 +41,7 @@ void LightStrategies::set(const compile::CompiledScene& world, const March& marc
   if (!flies(method)) density_.emplace(march, throughput);
   if (march.scatters())
     lights_.set(world, march.ray.origin, march.ray.direction, march.scattering_stretches.front().lo,
-                march.scattering_stretches.back().hi);
+                march.scattering_stretches.back().hi, march.ray.time);
   if (method == Method::decoupled && distance == Distance::product && !empty())
     typical_phase_.set(world, march, brightest_segment(march));
 }
@@ -52,7 +53,8 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
     return sample_steps(point, shadow_seed, weight, continues, volume_probability, worker);
   float u_light = point[0];
   const std::uint32_t index = lights_.sample(u_light);
-  const optics::Light& light = world_->lights[index];
+  const compile::LightAt light_now(*world_, index, march_->ray.time);
+  const optics::Light& light = *light_now;
   const auto pivot = optics::sample_pivot(light, point[3], point[4]);
 
   const DistanceMixture distances(light, *march_, *density_, throughput_, distance_, pivot, typical_phase_,
@@ -80,25 +82,26 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
                            worker.phase.eval(m) * drawn->radiance_over_pdf *
                            static_cast<float>(share_of_c / (choice * pdf_t * samples));
   if (!is_black(contribution))
-    worker.shadows.add(shadow_ray(*world_, x, *drawn, index, contribution, shadow_seed));
+    worker.shadows.add(shadow_ray(*world_, x, march_->ray.time, *drawn, index, contribution, shadow_seed));
 }
 
 double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t, const Vec3d& direction,
                             const Vec3d& y, const Vec3d& normal, Worker& worker) const {
   if (empty()) return 0;
   const Vec3d x = march_->ray.origin + march_->ray.direction * t;
-  const double solid_angle = optics::pdf_light(world_->lights[light], x, direction, y, normal);
+  const compile::LightAt light_now(*world_, light, march_->ray.time);
+  const double solid_angle = optics::pdf_light(*light_now, x, direction, y, normal);
   if (solid_angle == 0) return 0;
   // The pivot that would lead to y: y itself on a flat light, the centre of a sphere.
   // The pivot that would lead to y: y itself on a flat light, the centre of a sphere.
-  auto pivot = optics::sample_pivot(world_->lights[light], 0.5f, 0.5f);
-  if (pivot && optics::pivot_on_surface(world_->lights[light])) pivot = optics::Pivot{y, normal};
+  auto pivot = optics::sample_pivot(*light_now, 0.5f, 0.5f);
+  if (pivot && optics::pivot_on_surface(*light_now)) pivot = optics::Pivot{y, normal};
   if (method_ == Method::brute_force) return lights_.probability(light) * solid_angle / step_at(segment);
   if (flies(method_)) {
     const FlightDensities densities = flight_densities({light, pivot, 0}, t, flight_->density, worker);
     return lights_.probability(light) * solid_angle * (densities.aimed + densities.collision);
   }
-  const DistanceMixture distances(world_->lights[light], *march_, *density_, throughput_, distance_, pivot,
+  const DistanceMixture distances(*light_now, *march_, *density_, throughput_, distance_, pivot,
                                   typical_phase_, worker);
   return lights_.probability(light) * solid_angle * distances.pdf(segment, t);
 }
@@ -108,7 +111,8 @@ void sample_surface_light(const compile::CompiledScene& world, const SurfacePoin
                           const Rgb& weight, bool continues, int samples, Worker& worker) {
   float u_light = point[0];
   const std::uint32_t index = lights.sample(u_light);
-  const optics::Light& light = world.lights[index];
+  const compile::LightAt light_now(world, index, surface.time);
+  const optics::Light& light = *light_now;
   const Vec3d& x = surface.transmits ? surface.position : surface.offset_position;
   const optics::Pivot pivot = optics::sample_pivot(light, point[3], point[4]).value_or(optics::Pivot{});
   const auto drawn = optics::sample_light(light, x, pivot, point[3], point[4]);
@@ -122,8 +126,8 @@ void sample_surface_light(const compile::CompiledScene& world, const SurfacePoin
   const Rgb contribution =
       weight * scattered * drawn->radiance_over_pdf * static_cast<float>(share / (choice * samples));
   if (!is_black(contribution))
-    worker.shadows.add(
-        shadow_ray(world, surface.start(drawn->direction), *drawn, index, contribution, shadow_seed));
+    worker.shadows.add(shadow_ray(world, surface.start(drawn->direction), surface.time, *drawn, index,
+                                  contribution, shadow_seed));
 }
 
 }  // namespace tyndall::render

@@ -84,8 +84,9 @@ class LightStrategies {
 };
 
 // The shadow ray from a point to what was drawn of a light.
-ShadowRay shadow_ray(const compile::CompiledScene& world, const Vec3d& from, const optics::LightSample& light,
-                     std::uint32_t index, const Rgb& contribution, std::uint32_t seed);
+ShadowRay shadow_ray(const compile::CompiledScene& world, const Vec3d& from, double time,
+                     const optics::LightSample& light, std::uint32_t index, const Rgb& contribution,
+                     std::uint32_t seed);
 
 // Adds the shadow ray of one light sample on a surface. Strategy C is here the surface's own sampling.
 void sample_surface_light(const compile::CompiledScene& world, const SurfacePoint& surface,

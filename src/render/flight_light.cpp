@@ -16,7 +16,8 @@ LightStrategies::Aim LightStrategies::choose(const SobolPoint& point, float& u_r
   Aim aim;
   aim.light = lights_.sample(u_rest);
   aim.choice = lights_.probability(aim.light);
-  aim.pivot = optics::sample_pivot(world_->lights[aim.light], point[3], point[4]);
+  aim.pivot =
+      optics::sample_pivot(*compile::LightAt(*world_, aim.light, march_->ray.time), point[3], point[4]);
   return aim;
 }
 
@@ -25,7 +26,8 @@ LightStrategies::FlightDensities LightStrategies::flight_densities(const Aim& ai
                                                                    Worker& worker) const {
   if (!aims() || !aim.pivot) return {0, collision};
   worker.stretches.clear();
-  reached_stretches(world_->lights[aim.light], *aim.pivot, *march_, worker.stretches);
+  reached_stretches(*compile::LightAt(*world_, aim.light, march_->ray.time), *aim.pivot, *march_,
+                    worker.stretches);
   const Equiangular equiangular(march_->ray.origin, march_->ray.direction, aim.pivot->position,
                                 worker.stretches);
   if (!equiangular.available()) return {0, collision};
@@ -40,7 +42,8 @@ void LightStrategies::aim(const SobolPoint& point, Flight& flight, Worker& worke
   const Aim aim = choose(point, u);
   if (!aim.pivot) return;
   worker.stretches.clear();
-  reached_stretches(world_->lights[aim.light], *aim.pivot, *march_, worker.stretches);
+  reached_stretches(*compile::LightAt(*world_, aim.light, march_->ray.time), *aim.pivot, *march_,
+                    worker.stretches);
   const Equiangular equiangular(march_->ray.origin, march_->ray.direction, aim.pivot->position,
                                 worker.stretches);
   if (equiangular.available()) flight.aimed_t = equiangular.sample(point[2]);
@@ -73,8 +76,8 @@ void LightStrategies::add_flight_ray(const Aim& aim, const SobolPoint& point, do
                                      double own_density, const FlightDensities& densities, double collision,
                                      bool continues, std::uint32_t shadow_seed, Worker& worker) {
   const Vec3d x = march_->ray.origin + march_->ray.direction * t;
-  const auto drawn = optics::sample_light(world_->lights[aim.light], x, aim.pivot.value_or(optics::Pivot{}),
-                                          point[3], point[4]);
+  const auto drawn = optics::sample_light(*compile::LightAt(*world_, aim.light, march_->ray.time), x,
+                                          aim.pivot.value_or(optics::Pivot{}), point[3], point[4]);
   if (!drawn) return;
   worker.phase.set(*world_, *march_, march_->segment_at(t));
   const float m = optics::one_minus_cos(Vec3f(march_->ray.direction), Vec3f(drawn->direction));
@@ -85,7 +88,8 @@ void LightStrategies::add_flight_ray(const Aim& aim, const SobolPoint& point, do
   const Rgb contribution = weight * worker.phase.eval(m) * drawn->radiance_over_pdf *
                            static_cast<float>(own_density * y / (all * aim.choice));
   if (!is_black(contribution))
-    worker.shadows.add(shadow_ray(*world_, x, *drawn, aim.light, contribution, shadow_seed));
+    worker.shadows.add(
+        shadow_ray(*world_, x, march_->ray.time, *drawn, aim.light, contribution, shadow_seed));
 }
 
 // The part of a segment that gets one light sample: the volumes' step, also in media without variation.
@@ -119,7 +123,7 @@ void LightStrategies::sample_steps(const SobolPoint& point, std::uint32_t shadow
       }
       const Aim aim = choose(moved, u_rest);
       const Vec3d x = march_->ray.origin + march_->ray.direction * t;
-      const auto drawn = optics::sample_light(world_->lights[aim.light], x,
+      const auto drawn = optics::sample_light(*compile::LightAt(*world_, aim.light, march_->ray.time), x,
                                               aim.pivot.value_or(optics::Pivot{}), moved[3], moved[4]);
       if (!drawn) continue;
       worker.phase.set(*world_, *march_, i);
@@ -131,7 +135,8 @@ void LightStrategies::sample_steps(const SobolPoint& point, std::uint32_t shadow
       const Rgb contribution = weight * sigma_s * march_->transmittance_at(i, t) * worker.phase.eval(m) *
                                drawn->radiance_over_pdf * static_cast<float>(share * dt / aim.choice);
       if (!is_black(contribution))
-        worker.shadows.add(shadow_ray(*world_, x, *drawn, aim.light, contribution, shadow_seed + counter));
+        worker.shadows.add(
+            shadow_ray(*world_, x, march_->ray.time, *drawn, aim.light, contribution, shadow_seed + counter));
     }
   }
 }

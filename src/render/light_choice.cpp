@@ -8,14 +8,14 @@
 namespace tyndall::render {
 
 void LightChoice::set(const compile::CompiledScene& world, const Vec3d& origin, const Vec3d& direction,
-                      double t0, double t1) {
+                      double t0, double t1, double time) {
   tree_ = world.light_tree.get();
   stretch_ = {origin, direction, t0, t1};
   total_ = tree_weight_ = tree_ ? tree_->importance(stretch_) : 0;
   weights_.resize(tree_ ? tree_->others().size() : world.lights.size());
   for (std::size_t i = 0; i < weights_.size(); ++i) {
-    const optics::Light& light = world.lights[tree_ ? tree_->others()[i] : i];
-    weights_[i] = optics::importance(light, origin, direction, t0, t1);
+    const compile::LightAt light(world, tree_ ? tree_->others()[i] : static_cast<std::uint32_t>(i), time);
+    weights_[i] = optics::importance(*light, origin, direction, t0, t1);
     total_ += weights_[i];
   }
 }

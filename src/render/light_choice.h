@@ -15,7 +15,7 @@ class LightChoice {
  public:
   // Keeps a reference to the scene.
   void set(const compile::CompiledScene& world, const Vec3d& origin, const Vec3d& direction, double t0,
-           double t1);
+           double t1, double time);
   // Whether no light brings anything.
   bool empty() const { return !(total_ > 0); }
   // The light for u in [0, 1); rescales u to be used again. Not when empty.

@@ -19,10 +19,10 @@ float weight_of_met_light(const compile::CompiledScene& world, int light_samples
       return static_cast<float>(1 - balance(samples, p, s.origin.pdf));
     }
     case PathOrigin::Kind::surface: {
-      const double solid_angle =
-          optics::pdf_light(world.lights[light], s.origin.position, s.ray.direction, y, normal);
+      const double solid_angle = optics::pdf_light(*compile::LightAt(world, light, s.ray.time),
+                                                   s.origin.position, s.ray.direction, y, normal);
       if (solid_angle == 0) return 1;
-      worker.surface_lights.set(world, s.origin.position, s.ray.direction, 0, 0);
+      worker.surface_lights.set(world, s.origin.position, s.ray.direction, 0, 0, s.ray.time);
       const double p = worker.surface_lights.probability(light) * solid_angle;
       return static_cast<float>(1 - balance(samples, p, s.origin.pdf));
     }

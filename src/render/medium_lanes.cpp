@@ -6,10 +6,12 @@
 namespace tyndall::render {
 
 MediumLanes::MediumLanes(const compile::CompiledScene& world, const vm::Program& program, Worker& worker)
-    : world_(world), program_(program), worker_(worker), time_(static_cast<float>(world.scene.time)) {
+    : world_(world), program_(program), worker_(worker) {
+  worker.lane_times.clear();
   for (const vm::Input input : program.inputs) {
     needs_p_ |= input <= vm::Input::p_z;
     needs_world_ |= vm::Input::P_x <= input && input <= vm::Input::P_z;
+    needs_time_ |= input == vm::Input::time && world.features.motion;
   }
 }
 
@@ -25,9 +27,23 @@ void MediumLanes::reserve(std::size_t capacity) {
 }
 
 void MediumLanes::run(std::size_t lanes, std::span<float* const> outputs) {
+  const auto& times = worker_.lane_times;
+  if (times.size() <= 1) return run(0, lanes, times.empty() ? 0 : times[0].time, outputs);
+  std::vector<float*>& shifted = worker_.shifted_outputs;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const std::size_t first = times[i].first, end = i + 1 < times.size() ? times[i + 1].first : lanes;
+    shifted.clear();
+    for (float* output : outputs) shifted.push_back(output + first);
+    run(first, end - first, times[i].time, shifted);
+  }
+}
+
+void MediumLanes::run(std::size_t first, std::size_t lanes, double time, std::span<float* const> outputs) {
+  const float seconds = world_.seconds_at(time);
   vm::BatchInputs inputs;
   for (const vm::Input input : program_.inputs)
-    inputs[input] = vm::is_uniform(input) ? &time_ : worker_.inputs[static_cast<std::size_t>(input)].data();
+    inputs[input] =
+        vm::is_uniform(input) ? &seconds : worker_.inputs[static_cast<std::size_t>(input)].data() + first;
   worker_.machine.run(program_, inputs, lanes, outputs);
 }
 

@@ -27,20 +27,27 @@ class MediumLanes {
         for (std::size_t i = 0; i < count; ++i) lanes[i] = static_cast<float>(o + d * t(i));
       }
     };
-    if (needs_p_)
-      put(vm::Input::p_x, volume.medium_from_render.point(ray.origin),
-          volume.medium_from_render.vector(ray.direction));
+    if (needs_p_) {
+      const Transform medium_from_render = volume.medium_from_render_at(ray.time);
+      put(vm::Input::p_x, medium_from_render.point(ray.origin), medium_from_render.vector(ray.direction));
+    }
     if (needs_world_) put(vm::Input::P_x, ray.origin + world_.origin, ray.direction);
+    if (needs_time_ && count > 0 &&
+        (worker_.lane_times.empty() || worker_.lane_times.back().time != ray.time))
+      worker_.lane_times.push_back({first, ray.time});
   }
-  // Runs the program over `lanes` lanes; output k goes to outputs[k].
+  // Runs the program over `lanes` lanes; output k goes to outputs[k]. Rays of different times are batches of
+  // their own when the program reads the time.
   void run(std::size_t lanes, std::span<float* const> outputs);
 
  private:
+  void run(std::size_t first, std::size_t lanes, double time, std::span<float* const> outputs);
+
   const compile::CompiledScene& world_;
   const vm::Program& program_;
   Worker& worker_;
   bool needs_p_ = false, needs_world_ = false;
-  float time_ = 0;
+  bool needs_time_ = false;  // the ray's
 };
 
 // Replaces what a shader must not give: not-finite values (by 0; +infinity by `largest_value`) and, unless

@@ -78,7 +78,9 @@ class PathTracer {
       path.sample = static_cast<std::uint32_t>(started_++);
       const SobolPoint u = path.sampler->point(decision(Decision::pixel, 0, 0), 4);
       path.state = {};
-      path.state.ray = camera_.ray(s.x, s.y, u[0], u[1], u[2], u[3]);
+      const double time =
+          world_.features.motion ? path.sampler->point(decision(Decision::time, 0, 0), 1)[0] : 0;
+      path.state.ray = camera_.ray(s.x, s.y, u[0], u[1], u[2], u[3], time);
       ++worker_.statistics.samples;
     }
   }
@@ -255,7 +257,7 @@ class PathTracer {
   void light_surface(const PathState& s, const SurfacePoint& surface, bool continues) {
     if (surface.only_deltas) return;
     LightChoice& lights = worker_.surface_lights;
-    lights.set(world_, surface.position, surface.normal, 0, 0);
+    lights.set(world_, surface.position, surface.normal, 0, 0, s.ray.time);
     if (lights.empty()) return;
     worker_.shadows.set_sample(path_->sample, s.part(s.depth + 1));
     const int samples = s.depth == 0 ? settings_.light_samples : 1;
@@ -281,7 +283,7 @@ class PathTracer {
     const Vec3f w =
         optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[3]);
     s.origin = {PathOrigin::Kind::volume, x, at.pdf * pdf_phase, &strategies, at.segment, at.t};
-    s.ray = {x, normalize(Vec3d(w)), infinity};
+    s.ray = {x, normalize(Vec3d(w)), infinity, s.ray.time};
     return next_depth(s);
   }
 
@@ -293,7 +295,7 @@ class PathTracer {
     const Vec3d& start = surface.start(next->direction);
     s.origin = {
         next->delta ? PathOrigin::Kind::delta : PathOrigin::Kind::surface, start, next->pdf, nullptr, 0, 0};
-    s.ray = {start, next->direction, infinity};
+    s.ray = {start, next->direction, infinity, s.ray.time};
     if (surface.transmits && dot(surface.normal, next->direction) < 0)
       s.index_scale *= static_cast<float>(sqr(surface.eta));
     s.branch = s.branch || s.depth == 0;
@@ -318,14 +320,16 @@ class PathTracer {
   void gather_infinity(const PathState& s, const Rgb& at_end) {
     if (!world_.features.environment && !world_.features.distant_discs) return;
     for (std::uint32_t i = 0; i < world_.lights.size(); ++i) {
-      const Rgb radiance = optics::radiance_from_infinity(world_.lights[i], s.ray.direction);
+      const Rgb radiance =
+          optics::radiance_from_infinity(*compile::LightAt(world_, i, s.ray.time), s.ray.direction);
       if (!is_black(radiance))
         add(at_end * radiance * weight(s, i, {}, {}), s.part(s.depth), "a light at infinity");
     }
   }
 
   void gather_light(const PathState& s, const compile::SurfaceHit& hit, const Rgb& at_end) {
-    const Rgb radiance = optics::emitted(world_.lights[hit.light], s.ray.direction, hit.normal);
+    const Rgb radiance =
+        optics::emitted(*compile::LightAt(world_, hit.light, s.ray.time), s.ray.direction, hit.normal);
     if (!is_black(radiance))
       add(at_end * radiance * weight(s, hit.light, hit.position, hit.normal), s.part(s.depth), "a light met");
   }

@@ -85,8 +85,8 @@ void find_stretches(const CompiledScene& world, const compile::Ray& ray, compile
       out.push_back({stay.t0, stay.t1, stay.volume, volume.step.metres});
       continue;
     }
-    compile::GridWalk walk(*world.grids[volume.grid], volume.medium_from_render, ray, stay.t0, stay.t1,
-                           worker.bounds,
+    compile::GridWalk walk(*world.grids[volume.grid], volume.medium_from_render_at(ray.time), ray, stay.t0,
+                           stay.t1, worker.bounds,
                            automatic ? compile::GridWalk::Detail::bounds : compile::GridWalk::Detail::kinds);
     if (!automatic) {
       skip_empty(walk, stay, volume.step.metres, out);

@@ -37,7 +37,7 @@ class MaterialAt {
                                                      hit.shading_normal.z,
                                                      hit.uv.x,
                                                      hit.uv.y,
-                                                     world.scene.time};
+                                                     world.seconds_at(hit.time)};
     std::array<float, vm::input_count> floats;
     vm::BatchInputs inputs;
     for (std::size_t i = 0; i < floats.size(); ++i) {
@@ -85,7 +85,7 @@ Outside outside_of(const compile::CompiledScene& world, const compile::SurfaceHi
   if (!world.solids || hit.sheet || hit.shape == compile::no_index ||
       !world.materials[hit.material].transmits)
     return {};
-  const auto holder = world.solids->at(hit.position, hit.shape);
+  const auto holder = world.solids->at(hit.position, hit.time, hit.shape);
   if (!holder) return {};
   const compile::SolidRank own{world.scene.shapes[hit.shape].priority, hit.shape};
   return {holder->ior, own < holder->rank};
@@ -113,6 +113,7 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
   const bool from_inside = dot(hit.normal, direction) > 0;
   const Vec3d off = hit.normal * compile::surface_offset(world, hit.position);
   point.position = hit.position;
+  point.time = hit.time;
   point.normal = from_inside ? -hit.normal : hit.normal;
   point.offset_position = from_inside ? hit.position - off : hit.position + off;
   point.behind_position = from_inside ? hit.position + off : hit.position - off;

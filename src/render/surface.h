@@ -19,6 +19,7 @@ struct SurfacePoint {
   Rgb emission;       // [W/m²/sr]
   Rgb reflectance;    // about what part of the light is scattered on, in [0, 1]
   float opacity = 1;  // all else is of the part that is there
+  double time = 0;    // the ray's
   double eta = 1;     // index behind over that before; 1 where no light goes to another medium
   bool transmits = false, only_deltas = false;
   Frame<double> frame;                        // z: the normal to shade with

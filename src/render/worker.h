@@ -59,7 +59,12 @@ struct Worker {
   Statistics statistics;
   BadValueCounts bad_values;
   std::array<std::vector<float>, vm::input_count> inputs;  // lanes of one batch
-  std::vector<float*> outputs;
+  std::vector<float*> outputs, shifted_outputs;
+  struct LaneTime {
+    std::size_t first;  // lane
+    double time;        // of this and the next ones
+  };
+  std::vector<LaneTime> lane_times;  // of one batch, when its program reads the time
   std::vector<float> material_outputs;
   std::vector<CameraSample> tile_samples;
   std::vector<Rgb> tile_radiance;

@@ -33,15 +33,16 @@ void run_assign(Run& run, const Site& site, const syntax::AssignItem& assign) {
                                  fmt::format("define it with `var {} = …`", name),
                                  {{binding->definition, "defined here"}});
   // The evaluation may add bindings nowhere but in new scopes, so `binding` stays where it is.
-  binding->value = run.evaluator.evaluate(*site.tree, assign.value, site.scope);
+  binding->value = run.evaluator.evaluate_variable(*site.tree, assign.value, site.scope);
 }
 
 void run_if(Run& run, const Site& site, const syntax::IfItem& item) {
   const eval::Value condition = run.evaluator.evaluate_as(eval::Type::boolean, *site.tree, item.condition,
                                                           site.scope, "the condition of `if`");
   if (condition.is_error()) return;
-  const syntax::BlockId taken = condition.as_bool() ? item.then_block : item.else_block;
-  const syntax::BlockId other = condition.as_bool() ? item.else_block : item.then_block;
+  const bool is_true = run.structure.settled(condition.as_bool());
+  const syntax::BlockId taken = is_true ? item.then_block : item.else_block;
+  const syntax::BlockId other = is_true ? item.else_block : item.then_block;
   if (taken.valid()) run_inner_block(run, site, taken);
   if (other.valid()) pass_over(run, site, other);
 }
@@ -129,7 +130,12 @@ void run_for(Run& run, const Site& site, const syntax::ForItem& loop) {
     return run.diagnostics.error(
         span, fmt::format("`for` goes over a range or a list, found {}", eval::describe(values.type)),
         "write `for i in 0..<8 { … }`");
-  const std::int64_t rounds = range ? eval::count(*range) : static_cast<std::int64_t>(list->size());
+  const eval::RangeValue over = range ? run.structure.settled(*range) : eval::RangeValue{};
+  const std::int64_t rounds =
+      range ? eval::count(over) : static_cast<std::int64_t>(run.structure.settled(list->size()));
+  if (list && static_cast<std::size_t>(rounds) > list->size())
+    return run.diagnostics.error(span, "the list has another length later while the shutter is open",
+                                 "only numbers may depend on `time`, not how many there are");
   if (!run.may_repeat(static_cast<double>(rounds), span)) return;
   // A round with an error ends the loop: the next ones would repeat it.
   const int errors = run.diagnostics.error_count();
@@ -139,7 +145,7 @@ void run_for(Run& run, const Site& site, const syntax::ForItem& loop) {
     std::vector<std::string> included;
     inside.included = &included;
     const eval::Value value =
-        range ? eval::Value::number(eval::at(*range, i)) : (*list)[static_cast<std::size_t>(i)];
+        range ? eval::Value::number(eval::at(over, i)) : (*list)[static_cast<std::size_t>(i)];
     run.evaluator.bind(inside.scope, {loop.name.symbol, value, eval::BindingKind::parameter, loop.name.span});
     run_block(run, inside, loop.body);
     if (i == 0) report_unused(run, *inside.scope);

@@ -7,6 +7,7 @@
 
 #include "resolve/animation.h"
 #include "resolve/checks.h"
+#include "resolve/motion.h"
 #include "resolve/never_run.h"
 #include "resolve/run.h"
 #include "syntax/parser.h"
@@ -39,6 +40,8 @@ void settle_time(Run& run) {
   run.scene.time = run.foreseen ? run.scene.frame / run.foreseen->fps : 0;
   run.context.frame = run.scene.frame;
   run.context.time = run.scene.time;
+  run.context.shutter_open = run.foreseen && run.foreseen->shutter.radians > 0;
+  run.structure.keep(run.context.shutter_open);
 }
 
 void run_main_file(Run& run) {
@@ -49,10 +52,31 @@ void run_main_file(Run& run) {
   run.includes.open.pop_back();
 }
 
+std::optional<scene::Scene> scene_at(Run& first, double fraction) {
+  Diagnostics diagnostics;
+  Run run(*first.main, first.sources, first.symbols, first.options, diagnostics, &first.structure);
+  read_overrides(run);
+  run.foreseen = first.foreseen;
+  run.scene.frame = first.scene.frame;
+  run.context.frame = first.scene.frame;
+  run.context.time = first.scene.time + fraction * scene::shutter_seconds(*first.foreseen);
+  run_main_file(run);
+  for (const Diagnostic& d : diagnostics.all())
+    if (d.severity == Severity::error) {
+      const std::string when =
+          fmt::format("so it is {:.4g} s after the shutter opens", run.context.time - first.scene.time);
+      std::vector<Diagnostic::Note> notes = d.notes;
+      notes.push_back({d.span, when});
+      first.diagnostics.error(d.span, d.message, d.help, std::move(notes));
+      return std::nullopt;
+    }
+  return std::move(run.scene);
+}
+
 }  // namespace
 
 Run::Run(const syntax::SyntaxTree& tree, Sources& sources_, syntax::Symbols& symbols_,
-         const Options& options_, Diagnostics& diagnostics_)
+         const Options& options_, Diagnostics& diagnostics_, const Structure* earlier)
     : sources(sources_),
       symbols(symbols_),
       options(options_),
@@ -67,8 +91,18 @@ Run::Run(const syntax::SyntaxTree& tree, Sources& sources_, syntax::Symbols& sym
       evaluator(context),
       schemas(symbols_),
       statements(symbols_),
+      structure(earlier),
       blocks_run(tree.blocks.size()) {
   note_unread(*this, tree);
+}
+
+eval::RangeValue Structure::settled(const eval::RangeValue& now) {
+  if (!earlier_) {
+    if (keeps_) kept_.push_back(now);
+    return now;
+  }
+  // A run that goes another way than the first is refused when its things are compared.
+  return place_ < earlier_->kept_.size() ? earlier_->kept_[place_++] : now;
 }
 
 void note_unread(Run& run, const syntax::SyntaxTree& tree) {
@@ -90,6 +124,8 @@ scene::Scene resolve(const syntax::SyntaxTree& tree, Sources& sources, syntax::S
     report_unused(run, *run.file_scope);
     check_overrides(run);
     check_scene(run);
+    if (run.context.shutter_open && run.context.time_reads > 0 && !run.diagnostics.has_errors())
+      find_motion(run, scene_at);
   }
   return std::move(run.scene);
 }

@@ -75,9 +75,31 @@ struct KnownObject {
   bool inherits_material = false;
 };
 
+// What decides how many things there are, as it was when the shutter opened: branches of `if`, ranges and
+// lengths of `for`, in order. A run at a later moment takes them over.
+class Structure {
+ public:
+  // `earlier`: that of the run when the shutter opened; null for that run itself.
+  explicit Structure(const Structure* earlier = nullptr) : earlier_(earlier) {}
+
+  bool settled(bool condition) { return settled(eval::RangeValue{condition ? 1.0 : 0.0}).first != 0; }
+  std::size_t settled(std::size_t length) {
+    return static_cast<std::size_t>(settled(eval::RangeValue{static_cast<double>(length)}).first);
+  }
+  eval::RangeValue settled(const eval::RangeValue& now);
+  // Whether there will be later runs.
+  void keep(bool keeps) { keeps_ = keeps; }
+
+ private:
+  const Structure* earlier_;
+  bool keeps_ = false;
+  std::size_t place_ = 0;
+  std::vector<eval::RangeValue> kept_;
+};
+
 struct Run {
   Run(const syntax::SyntaxTree& tree, Sources& sources_, syntax::Symbols& symbols_, const Options& options_,
-      Diagnostics& diagnostics_);
+      Diagnostics& diagnostics_, const Structure* earlier = nullptr);
 
   Sources& sources;
   syntax::Symbols& symbols;
@@ -100,6 +122,7 @@ struct Run {
   Bodies bodies;
   PassedOver passed_over;
   std::unordered_set<const syntax::ThingExpr*> warned_meshes;
+  Structure structure;
   BuiltObject* building =
       nullptr;  // takes the things of the object whose body is being run; null: the scene does
   std::unordered_map<const eval::Heavy*, KnownObject> objects;  // by their values' addresses

@@ -1,6 +1,7 @@
 // The scene as text, every number in shortest exact form: `inspect --stage scene`, and what the scene hash is
 // of. Places in the source are left out: a scene's print does not change with its layout.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iterator>
 
@@ -61,6 +62,7 @@ class Printer {
     put(t.t);
   }
   void put(const MeshId& m) { put(m.index); }
+  void put(const std::vector<double>& v) { fmt::format_to(out(), "{}", fmt::join(v, " ")); }
   void put(const Pair<double>& v) { fmt::format_to(out(), "({}, {})", v.x, v.y); }
   void put(const std::array<std::uint32_t, 3>& v) { fmt::format_to(out(), "({}, {}, {})", v[0], v[1], v[2]); }
   void put(const RgbOutputs& o) { fmt::format_to(out(), "outputs {} {} {}", o[0], o[1], o[2]); }
@@ -191,12 +193,29 @@ void print_things(Printer& p, const Things& things) {
   }
 }
 
+template <class T>
+void print_keys(Printer& p, const std::vector<T>& keys) {
+  for (const T& key : keys) p.item("key", moving_numbers(key));
+}
+
+// The numbers of what moves, moment by moment.
+template <class T>
+void print_moving(Printer& p, std::string_view what, const std::vector<Moving<T>>& all) {
+  for (const Moving<T>& moving : all) {
+    p.put_text("moving ");
+    p.count(what, moving.index);
+    p.line("");
+    print_keys(p, moving.keys);
+  }
+}
+
 }  // namespace
 
 std::string print(const Scene& scene) {
   Printer p;
   print_settings(p, scene);
   print_variant(p, scene.camera);
+  print_keys(p, scene.motion.camera);
   for (std::size_t i = 0; i < scene.media.size(); ++i) {
     p.count("medium", i);
     p.line("");
@@ -220,6 +239,8 @@ std::string print(const Scene& scene) {
     p.line("");
     p.item("name", scene.prototypes[i].name);
     print_things(p, scene.prototypes[i]);
+    print_moving(p, "shape", scene.prototypes[i].moving_shapes);
+    print_moving(p, "instance", scene.prototypes[i].moving_instances);
     p.line("end");
   }
   print_things(p, scene);
@@ -233,6 +254,10 @@ std::string print(const Scene& scene) {
     if (const auto* sky = std::get_if<optics::EnvironmentLight>(&l.light))
       p.item("world_from_sky", sky->world_from_sky);
   }
+  print_moving(p, "shape", scene.motion.shapes);
+  print_moving(p, "instance", scene.motion.instances);
+  print_moving(p, "volume", scene.motion.volumes);
+  print_moving(p, "light", scene.motion.lights);
   return p.text();
 }
 

@@ -15,6 +15,7 @@
 #include "optics/lights.h"
 #include "optics/surface_model.h"
 #include "scene/medium.h"
+#include "scene/motion.h"
 #include "scene/step.h"
 #include "vm/program.h"
 
@@ -269,6 +270,18 @@ struct Prototype {
   std::vector<ShapeInstance> shapes;
   std::vector<Volume> volumes;
   std::vector<Instance> instances;
+  // In order of index.
+  std::vector<Moving<ShapeInstance>> moving_shapes;
+  std::vector<Moving<Instance>> moving_instances;
+};
+
+// What moves of a scene beside its prototypes' things, each in order of index.
+struct Motion {
+  std::vector<Camera> camera;  // empty: it stands still
+  std::vector<Moving<ShapeInstance>> shapes;
+  std::vector<Moving<Instance>> instances;
+  std::vector<Moving<Volume>> volumes;  // of all_volumes
+  std::vector<Moving<LightInstance>> lights;
 };
 
 // ----------------------------------------------------------------------------------------------------- scene
@@ -278,6 +291,7 @@ struct Scene {
   Animation animation;
   int frame = 0;    // the whole number that `frame` was
   double time = 0;  // seconds, when the shutter opens
+  Motion motion;    // while it is open
   Camera camera;
   std::vector<Medium> media;
   std::vector<Material> materials;
@@ -288,6 +302,9 @@ struct Scene {
   std::vector<Prototype> prototypes;
   std::vector<Instance> instances;
 };
+
+// How long the shutter is open [s].
+double shutter_seconds(const Animation& animation);
 
 // The scene as text, one thing a paragraph, with every number: `inspect --stage scene`, and the scene hash.
 std::string print(const Scene& scene);

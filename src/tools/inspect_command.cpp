@@ -42,6 +42,7 @@ std::string features_text(LoadedScene& loaded) {
       {"volumes", features.volumes},
       {"surfaces", features.surfaces},
       {"overlapping volumes", features.overlap},
+      {"motion while the shutter is open", features.motion},
       {"media that vary in space", features.heterogeneous},
       {"extinction that differs in colour", features.chromatic},
       {"media that emit", features.medium_emission},

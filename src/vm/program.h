@@ -8,6 +8,7 @@
 // Code is in two parts: `uniform_code` writes uniforms and runs once per batch; `lane_code` writes rows.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -68,6 +69,7 @@ struct Program {
   std::uint64_t fingerprint = 0;
 
   Operand first_input() const { return static_cast<Operand>(constants.size()); }
+  bool reads(Input input) const { return std::find(inputs.begin(), inputs.end(), input) != inputs.end(); }
   Operand first_uniform() const { return static_cast<Operand>(first_input() + inputs.size()); }
   Operand first_row() const { return static_cast<Operand>(first_uniform() + uniform_count); }
   std::size_t operand_count() const { return std::size_t{first_row()} + row_count; }

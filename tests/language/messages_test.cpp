@@ -98,6 +98,7 @@ const std::map<std::string, std::string> written_elsewhere{
     {"std::string(mistake.message)", ""},   // rows of a table, read as such
     {"std::string(message) + places", ""},  // habits, read where they are reported
     {"problem.message", ""},                // of scene/validate.cpp
+    {"d.message", ""},                      // of a later run
     {"std::string message", ""},            // declarations and passing on
     {"std::move(message)", ""},
 };
