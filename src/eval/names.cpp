@@ -53,7 +53,10 @@ Names::Names(syntax::Symbols& symbols) {
 
 Names::~Names() {
   for (const auto& scope : scopes_with_definitions)
-    for (const Binding& binding : scope->bindings) binding.value = {};
+    for (const Binding& binding : scope->bindings) {
+      binding.value = {};
+      binding.timed = nullptr;
+    }
 }
 
 }  // namespace tyndall::eval

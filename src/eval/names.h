@@ -48,7 +48,8 @@ struct Names {
   // Words that are looked up before any name: the argument `ease` takes some, `auto` stands for a value.
   syntax::SymbolId ease, automatic;
 
-  // Scopes that hold definitions are held by them in turn; the run's end lets go of them.
+  // Scopes that hold definitions, or expressions that see `time`, are held by them in turn; the run's end lets
+  // go of them.
   std::vector<std::shared_ptr<const Scope>> scopes_with_definitions;
 
   // Names that a body's block takes from outside of it, by the block's span.

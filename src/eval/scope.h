@@ -28,7 +28,7 @@ struct Binding {
   Span definition;
   mutable bool used = false;
   // Set while the shutter is open for a value that depends on `time`: bodies evaluate it as a function of it.
-  std::shared_ptr<const Deferred> timed{};
+  mutable std::shared_ptr<const Deferred> timed{};
 };
 
 // One scope. Definitions in the same scope must differ in name; an inner scope may hide an outer one's.
