@@ -147,13 +147,13 @@ class NameWalk {
   }
   void item(const ReturnItem& i) { expr(i.value); }
   void item(const ParameterItem& i) {
-    const auto is_auto = [&](ExprId id) {
+    const auto is_choice = [&](ExprId id) {
       const auto* word = std::get_if<NameExpr>(&tree_[id].node);
-      return word && choices_ && word->symbol == choices_->automatic;
+      return word && choices_ && choices_->is_choice(i.name.symbol, word->symbol);
     };
-    if (is_auto(i.value)) return;
+    if (is_choice(i.value)) return;
     const auto* call = std::get_if<CallExpr>(&tree_[i.value].node);
-    if (!call || !is_auto(call->callee)) return expr(i.value);
+    if (!call || !is_choice(call->callee)) return expr(i.value);
     for (const Argument& argument : tree_.list_of_arguments(call->arguments)) expr(argument.value);
   }
   void item(const ThingItem& i) {

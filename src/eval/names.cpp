@@ -39,6 +39,9 @@ Names::Names(syntax::Symbols& symbols) {
   for (const auto& [word, special] : words) place(specials, symbols.intern(word), special);
   ease = symbols.intern("ease");
   automatic = symbols.intern("auto");
+  multiple_scattering = symbols.intern("multiple_scattering");
+  full = symbols.intern("full");
+  approximate = symbols.intern("approximate");
   for (const auto rows : {vm::builtins(), phase_builtins()})
     for (const vm::Builtin& row : rows) {
       const Handlers handlers = handlers_of(row);

@@ -45,11 +45,16 @@ struct Names {
   std::vector<Special> specials;  // by symbol
   std::vector<const BuiltinEntry*> builtins_by_symbol;
   std::vector<std::unique_ptr<BuiltinEntry>> builtins;
-  // Words that are looked up before any name: the argument `ease` takes some, `auto` stands for a value.
-  syntax::SymbolId ease, automatic;
+  // Words that are looked up before any name: the argument `ease` takes some, `auto` stands for a value, and
+  // the parameter `multiple_scattering` has `full` and `approximate`.
+  syntax::SymbolId ease, automatic, multiple_scattering, full, approximate;
+  // Whether a word stands for a choice as the value of a parameter.
+  bool is_choice(syntax::SymbolId parameter, syntax::SymbolId word) const {
+    return word == automatic || (parameter == multiple_scattering && (word == full || word == approximate));
+  }
 
-  // Scopes that hold definitions, or expressions that see `time`, are held by them in turn; the run's end lets
-  // go of them.
+  // Scopes that hold definitions, or expressions that see `time`, are held by them in turn; the run's end
+  // lets go of them.
   std::vector<std::shared_ptr<const Scope>> scopes_with_definitions;
 
   // Names that a body's block takes from outside of it, by the block's span.

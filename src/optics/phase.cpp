@@ -134,6 +134,25 @@ float Phase::eval(float m) const {
   return 0;
 }
 
+float Phase::eval_softened(float m, float anisotropy) const {
+  switch (kind) {
+    case PhaseKind::isotropic:
+      return inv_4pi_f;
+    case PhaseKind::rayleigh:
+      return draine_eval(0, anisotropy, m);
+    case PhaseKind::hg:
+      return hg_eval(anisotropy * parameters[0], m);
+    case PhaseKind::draine:
+      return draine_eval(clamp_g(anisotropy * parameters[0]), anisotropy * parameters[1], m);
+    case PhaseKind::droplets: {
+      const Droplets fit(parameters[0]);
+      return lerp(hg_eval(anisotropy * fit.g_hg, m),
+                  draine_eval(anisotropy * fit.g_draine, anisotropy * fit.a, m), fit.weight_draine);
+    }
+  }
+  return 0;
+}
+
 float Phase::sample(float u0, float u1) const {
   switch (kind) {
     case PhaseKind::isotropic:

@@ -31,6 +31,8 @@ struct Phase {
   // Draws m = 1 - cos_theta; two uniform numbers (mixtures need the second).
   float sample(float u0, float u1) const;
   float mean_cosine() const;
+  // This function nearer to the isotropic one: its mean cosines and the like times `anisotropy`, in [0, 1].
+  float eval_softened(float one_minus_cos, float anisotropy) const;
 };
 
 // The direction at 1 - cos = m and azimuth phi from the unit direction w.

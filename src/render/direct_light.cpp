@@ -30,12 +30,13 @@ ShadowRay shadow_ray(const compile::CompiledScene& world, const Vec3d& from, dou
 }
 
 void LightStrategies::set(const compile::CompiledScene& world, const March& march, const Rgb& throughput,
-                          Method method, Distance distance) {
+                          Method method, Distance distance, std::span<const ScatteringOrder> orders) {
   world_ = &world;
   march_ = &march;
   throughput_ = throughput;
   method_ = method;
   distance_ = distance;
+  orders_ = orders;
   flight_ = nullptr;
   density_.reset();
   if (!flies(method)) density_.emplace(march, throughput);
@@ -78,11 +79,28 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
     const double p = choice * pdf_t * drawn->pdf_solid_angle;
     share_of_c = balance(samples, p, volume_probability * density_->pdf(segment, t) * worker.phase.pdf(m));
   }
-  const Rgb contribution = weight * march_->sigma_s_at(segment) * march_->transmittance_at(segment, t) *
-                           worker.phase.eval(m) * drawn->radiance_over_pdf *
-                           static_cast<float>(share_of_c / (choice * pdf_t * samples));
-  if (!is_black(contribution))
-    worker.shadows.add(shadow_ray(*world_, x, march_->ray.time, *drawn, index, contribution, shadow_seed));
+  const Rgb carried = weight * march_->sigma_s_at(segment) * march_->transmittance_at(segment, t) *
+                      static_cast<float>(1 / (choice * pdf_t * samples));
+  add_ray({*drawn, index, x, segment, carried, share_of_c}, shadow_seed, worker);
+}
+
+void LightStrategies::add_ray(const Arrival& a, std::uint32_t shadow_seed, Worker& worker) const {
+  const float m = optics::one_minus_cos(Vec3f(march_->ray.direction), Vec3f(a.drawn.direction));
+  const Rgb arriving = a.carried * a.drawn.radiance_over_pdf;
+  const Rgb contribution = arriving * worker.phase.eval(m) * static_cast<float>(a.share);
+  worker.higher_contributions.clear();
+  if (!orders_.empty() && !is_black(arriving)) {
+    const Rgb albedo = march_->albedo_at(a.segment);
+    Rgb carried = arriving * static_cast<float>(a.share_of_higher);
+    for (const ScatteringOrder& order : orders_) {
+      carried *= albedo;
+      worker.higher_contributions.push_back(carried * order.contribution *
+                                            worker.phase.eval_softened(m, order.anisotropy));
+    }
+  }
+  if (is_black(contribution) && worker.higher_contributions.empty()) return;
+  worker.shadows.add(shadow_ray(*world_, a.x, march_->ray.time, a.drawn, a.light, contribution, shadow_seed),
+                     worker.higher_contributions);
 }
 
 double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t, const Vec3d& direction,

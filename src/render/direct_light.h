@@ -6,11 +6,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "base/sampler.h"
 #include "compile/compiled_scene.h"
 #include "optics/light_sampling.h"
 #include "render/flight.h"
+#include "render/higher_orders.h"
 #include "render/light_choice.h"
 #include "render/march.h"
 #include "render/render.h"
@@ -25,9 +27,9 @@ struct Worker;
 class LightStrategies {
  public:
   // Keeps references: the march must stay as it is, but for its pool, which need not outlive this call for
-  // what `pdf` asks.
+  // what `pdf` asks. `orders` of scattering are added to the first; none where paths are followed further.
   void set(const compile::CompiledScene& world, const March& march, const Rgb& throughput, Method method,
-           Distance distance);
+           Distance distance, std::span<const ScatteringOrder> orders);
   bool empty() const { return !march_->scatters() || lights_.empty(); }
 
   // Adds the shadow rays of one sample (light, strategy, t, light u, light v in `point`) to the worker's
@@ -71,6 +73,18 @@ class LightStrategies {
   void sample_steps(const SobolPoint& point, std::uint32_t shadow_seed, const Rgb& weight, bool continues,
                     double volume_probability, Worker& worker);
   double step_at(std::uint32_t segment) const;
+  // Light drawn at x, in a segment. `carried` to the camera but for the phase function; `share` is the MIS
+  // weight, `share_of_higher` that without strategy C, which brings the first order alone.
+  struct Arrival {
+    const optics::LightSample& drawn;
+    std::uint32_t light = 0;
+    Vec3d x;
+    std::uint32_t segment = 0;
+    Rgb carried;
+    double share = 1, share_of_higher = 1;
+  };
+  // Adds its shadow ray. The worker's phase is that of the segment.
+  void add_ray(const Arrival& arrival, std::uint32_t shadow_seed, Worker& worker) const;
 
   const compile::CompiledScene* world_ = nullptr;
   const March* march_ = nullptr;
@@ -80,6 +94,7 @@ class LightStrategies {
   Rgb throughput_;
   Method method_ = Method::decoupled;
   Distance distance_ = Distance::mis;
+  std::span<const ScatteringOrder> orders_;
   const Flight* flight_ = nullptr;
 };
 

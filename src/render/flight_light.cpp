@@ -79,17 +79,17 @@ void LightStrategies::add_flight_ray(const Aim& aim, const SobolPoint& point, do
   const auto drawn = optics::sample_light(*compile::LightAt(*world_, aim.light, march_->ray.time), x,
                                           aim.pivot.value_or(optics::Pivot{}), point[3], point[4]);
   if (!drawn) return;
-  worker.phase.set(*world_, *march_, march_->segment_at(t));
+  const std::uint32_t segment = march_->segment_at(t);
+  worker.phase.set(*world_, *march_, segment);
   const float m = optics::one_minus_cos(Vec3f(march_->ray.direction), Vec3f(drawn->direction));
   // Of all ways to the same points, per metre and steradian; a light of no extent is met by none but these.
   const double y = drawn->pdf_solid_angle > 0 ? aim.choice * drawn->pdf_solid_angle : 1;
-  double all = (densities.aimed + densities.collision) * y;
+  const double of_light = (densities.aimed + densities.collision) * y;
+  double all = of_light;
   if (continues && drawn->pdf_solid_angle > 0) all += collision * worker.phase.pdf(m);
-  const Rgb contribution = weight * worker.phase.eval(m) * drawn->radiance_over_pdf *
-                           static_cast<float>(own_density * y / (all * aim.choice));
-  if (!is_black(contribution))
-    worker.shadows.add(
-        shadow_ray(*world_, x, march_->ray.time, *drawn, aim.light, contribution, shadow_seed));
+  add_ray({*drawn, aim.light, x, segment, weight * static_cast<float>(1 / aim.choice), own_density * y / all,
+           own_density * y / of_light},
+          shadow_seed, worker);
 }
 
 // The part of a segment that gets one light sample: the volumes' step, also in media without variation.
@@ -132,11 +132,9 @@ void LightStrategies::sample_steps(const SobolPoint& point, std::uint32_t shadow
       if (continues && drawn->pdf_solid_angle > 0)
         share = balance(1, aim.choice * drawn->pdf_solid_angle / dt,
                         volume_probability * density_->pdf(i, t) * worker.phase.pdf(m));
-      const Rgb contribution = weight * sigma_s * march_->transmittance_at(i, t) * worker.phase.eval(m) *
-                               drawn->radiance_over_pdf * static_cast<float>(share * dt / aim.choice);
-      if (!is_black(contribution))
-        worker.shadows.add(
-            shadow_ray(*world_, x, march_->ray.time, *drawn, aim.light, contribution, shadow_seed + counter));
+      const Rgb carried =
+          weight * sigma_s * march_->transmittance_at(i, t) * static_cast<float>(dt / aim.choice);
+      add_ray({*drawn, aim.light, x, i, carried, share}, shadow_seed + counter, worker);
     }
   }
 }

@@ -327,6 +327,15 @@ double March::optical_depth() const {
   return sum / extinction_channels;
 }
 
+Rgb March::albedo_at(std::uint32_t i) const {
+  Rgb albedo;
+  for (int c = 0; c < 3; ++c) {
+    const float s = sigma_s[channels == 1 ? 0 : c][i], t = sigma_t[extinction_row(c)][i];
+    albedo[c] = t > 0 ? s / t : 0.0f;
+  }
+  return albedo;
+}
+
 Rgb March::transmittance_at(std::uint32_t i, double t) const {
   Vec3d out;
   for (int c = 0; c < extinction_channels; ++c)

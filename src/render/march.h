@@ -80,6 +80,8 @@ struct March {
   std::uint32_t segment_at(double t) const;
   // Transmittance from the ray's start to t, inside segment i.
   Rgb transmittance_at(std::uint32_t i, double t) const;
+  // sigma_s / sigma_t of segment i; 0 where there is nothing.
+  Rgb albedo_at(std::uint32_t i) const;
   Rgb sigma_s_at(std::uint32_t i) const {
     return channels == 1 ? Rgb(sigma_s[0][i]) : Rgb{sigma_s[0][i], sigma_s[1][i], sigma_s[2][i]};
   }
@@ -154,6 +156,8 @@ class PhaseMixture {
   void set(const compile::CompiledScene& world, const March& march, std::uint32_t segment);
   // Colour because media of different colours may scatter differently: ∑ (sigma_s share) * lobe [1/sr].
   Rgb eval(float one_minus_cos) const;
+  // The same with every lobe less directed (optics::Phase::eval_softened).
+  Rgb eval_softened(float one_minus_cos, float anisotropy) const;
   float pdf(float one_minus_cos) const;
   // Draws 1 - cos.
   float sample(float u_lobe, float u0, float u1) const;

@@ -90,6 +90,12 @@ Rgb PhaseMixture::eval(float one_minus_cos) const {
   return sum;
 }
 
+Rgb PhaseMixture::eval_softened(float one_minus_cos, float anisotropy) const {
+  Rgb sum;
+  for (const Lobe& lobe : lobes_) sum += lobe.share * lobe.phase.eval_softened(one_minus_cos, anisotropy);
+  return sum;
+}
+
 float PhaseMixture::pdf(float one_minus_cos) const {
   float sum = 0;
   for (const Lobe& lobe : lobes_) sum += lobe.probability * lobe.phase.eval(one_minus_cos);

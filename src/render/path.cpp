@@ -132,10 +132,15 @@ class PathTracer {
       worker_.statistics.cut_throughput += max_component(carried);
       return false;
     }
+    if (s.media_scatterings > settings_.real_scatterings) return false;
     const bool continues =
         s.depth < static_cast<std::uint32_t>(settings_.bounces) || settings_.gathers_after_last;
-    if (settings_.method == Method::tracking) light_aimed(s, continues);
+    if (settings_.method == Method::tracking) light_aimed(s, continues && continues_in_volumes(s));
     return scatter(s, m, path_->light(), continues);
+  }
+
+  bool continues_in_volumes(const PathState& s) const {
+    return s.media_scatterings < settings_.real_scatterings || settings_.gathers_after_last;
   }
 
   // The surfaces that the ray goes through, and what it ends at. Adds their light.
@@ -182,15 +187,20 @@ class PathTracer {
   }
 
   void trace_shadows() {
-    for (const ShadowRay& ray : worker_.shadows.trace(world_, settings_.transmittance, worker_)) {
-      radiance_[ray.sample] += ray.contribution;
+    for (const ShadowRay& ray :
+         worker_.shadows.trace(world_, settings_.transmittance, settings_.orders, worker_)) {
+      radiance_[ray.sample] += ray.contribution + ray.higher;
       if (!aovs_.empty()) {
         aovs_[ray.sample].add(ray.part, ray.contribution);
+        aovs_[ray.sample].add(ray.higher_part, ray.higher);
         aovs_[ray.sample].cost += 1 + ray.segments;
       }
       if (trace_ && !is_black(ray.contribution))
         say("  + ({:.6g}, {:.6g}, {:.6g}) direct light\n", ray.contribution.x, ray.contribution.y,
             ray.contribution.z);
+      if (trace_ && !is_black(ray.higher))
+        say("  + ({:.6g}, {:.6g}, {:.6g}) light scattered further, approximated\n", ray.higher.x,
+            ray.higher.y, ray.higher.z);
     }
     worker_.shadows.clear();
   }
@@ -202,10 +212,14 @@ class PathTracer {
     if (!(volume_mass + surface_mass > 0)) return false;
     const bool both =
         s.origin.kind == PathOrigin::Kind::camera;  // camera rays follow both, deeper ones choose
-    const double volume_probability = both ? (volume_mass > 0) : volume_mass / (volume_mass + surface_mass);
+    const bool volume_continues = continues && continues_in_volumes(s);
+    const double volume_probability = both               ? (volume_mass > 0)
+                                      : volume_continues ? volume_mass / (volume_mass + surface_mass)
+                                                         : 0;
     if (!flies(settings_.method))
-      strategies.set(world_, m, s.throughput, settings_.method, settings_.distance);
-    if (volume_mass > 0) light_volume(s, strategies, continues, volume_probability);
+      strategies.set(world_, m, s.throughput, settings_.method, settings_.distance,
+                     settings_.orders_after(s.media_scatterings));
+    if (volume_mass > 0) light_volume(s, strategies, volume_continues, volume_probability);
 
     const double u = both && !met_.several() ? 0 : point(Decision::end_or_volume, s, 1)[0];
     if (surface_mass > 0 && (both || u >= volume_probability)) {
@@ -222,7 +236,7 @@ class PathTracer {
       }
       if (goes_on) follow_behind(next);
     }
-    return volume_mass > 0 && continues && continue_in_volume(s, m, strategies, volume_probability);
+    return volume_mass > 0 && volume_continues && continue_in_volume(s, m, strategies, volume_probability);
   }
 
   // A camera ray that meets both medium and surface goes on twice. The new path takes its first step in the
@@ -238,7 +252,7 @@ class PathTracer {
   void light_volume(const PathState& s, LightStrategies& strategies, bool continues,
                     double volume_probability) {
     if (strategies.empty()) return;
-    worker_.shadows.set_sample(path_->sample, s.depth == 0 ? LightPart::volume_direct : s.part(s.depth + 1));
+    worker_.shadows.set_sample(path_->sample, s.direct_part(), s.higher_part());
     const int samples = s.depth == 0 ? settings_.light_samples : 1;
     for (int k = 0; k < samples; ++k) {
       const std::uint32_t shadow_seed = sampler().bits(id(Decision::shadow, s), k);
@@ -248,7 +262,7 @@ class PathTracer {
   }
 
   void light_aimed(const PathState& s, bool continues) {
-    worker_.shadows.set_sample(path_->sample, s.depth == 0 ? LightPart::volume_direct : s.part(s.depth + 1));
+    worker_.shadows.set_sample(path_->sample, s.direct_part(), s.higher_part());
     path_->light().sample_aimed(point(Decision::aimed, s, 5),
                                 sampler().bits(id(Decision::shadow, s), 0x20000), s.throughput, continues,
                                 worker_);
@@ -279,6 +293,7 @@ class PathTracer {
 
     s.throughput *= at.weight * worker_.phase.eval(cosine_complement) * (1 / pdf_phase);
     s.first_in_volume |= s.depth == 0;
+    ++s.media_scatterings;
     const Vec3d x = s.ray.origin + s.ray.direction * at.t;
     const Vec3f w =
         optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[3]);

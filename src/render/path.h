@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "compile/compiled_scene.h"
 #include "render/camera.h"
+#include "render/higher_orders.h"
 #include "render/render.h"
 #include "render/worker.h"
 
@@ -19,10 +22,18 @@ struct PathSettings {
   Transmittance transmittance = Transmittance::march;
   int light_samples = 1;
   int bounces = 0;
+  // In media paths are followed through this many scatterings; the rest is approximated by `orders`.
+  std::uint32_t real_scatterings = std::numeric_limits<std::uint32_t>::max();
+  std::vector<ScatteringOrder> orders;
   int groups = 1;  // of samples with independent random numbers (film.h)
   // Rays after the last bounce are traced only when they could meet light that is not sampled directly, or
   // that competes with it by MIS.
   bool gathers_after_last = false;
+
+  // The orders that direct light has along a ray after so many scatterings in media.
+  std::span<const ScatteringOrder> orders_after(std::uint32_t media_scatterings) const {
+    return media_scatterings == real_scatterings ? std::span(orders) : std::span<const ScatteringOrder>{};
+  }
 };
 PathSettings path_settings(const compile::CompiledScene& world, const RenderOptions& options);
 

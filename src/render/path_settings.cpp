@@ -12,6 +12,10 @@ PathSettings path_settings(const compile::CompiledScene& world, const RenderOpti
   // Light at every step, and flights, take their one sample a place.
   settings.light_samples = options.method == Method::decoupled ? world.scene.settings.light_samples : 1;
   settings.bounces = world.scene.settings.bounces;
+  if (const auto& approximation = world.scene.settings.multiple_scattering.approximate) {
+    settings.real_scatterings = static_cast<std::uint32_t>(approximation->real);
+    settings.orders = higher_orders(*approximation);
+  }
   if (options.error || options.aovs.has(Aov::variance)) settings.groups = error_groups;
   settings.gathers_after_last =
       f.area_lights || f.distant_discs || f.environment || f.medium_emission || f.surface_emission;

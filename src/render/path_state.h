@@ -33,7 +33,8 @@ struct PathState {
   // Product of the squared relative indices of the boundaries passed: radiance in glass is larger by it,
   // which roulette must not take for throughput.
   float index_scale = 1;
-  std::uint32_t depth = 0;  // scatterings so far
+  std::uint32_t depth = 0;              // scatterings so far
+  std::uint32_t media_scatterings = 0;  // of them in media
   std::uint32_t branch = 0;
   bool first_in_volume = false;  // the first scattering was in a medium
   PathOrigin origin;
@@ -43,6 +44,9 @@ struct PathState {
     if (!first_in_volume) return LightPart::other;
     return scatterings == 1 ? LightPart::volume_direct : LightPart::volume_indirect;
   }
+  // Of direct light along the ray in media, and of light scattered more often that is approximated there.
+  LightPart direct_part() const { return depth == 0 ? LightPart::volume_direct : part(depth + 1); }
+  LightPart higher_part() const { return depth == 0 ? LightPart::volume_indirect : part(depth + 2); }
 };
 
 // A path on its way. Slots are reused, with the memory of their marches.

@@ -21,7 +21,8 @@ void request_propagation(const compile::CompiledScene& world, const PathSettings
   }
   // The light is chosen first, so that the flight knows a point to be aimed at.
   find_volumes(world, s.ray, kind, path.march());
-  path.light().set(world, path.march(), s.throughput, settings.method, settings.distance);
+  path.light().set(world, path.march(), s.throughput, settings.method, settings.distance,
+                   settings.orders_after(s.media_scatterings));
   path.light().aim(path.sampler->point(id(Decision::aimed, s)), path.flight(), worker);
   worker.flight_requests.push_back(
       {path.sampler->bits(id(Decision::flight, s), 0), s.throughput, &path.march(), &path.flight()});
@@ -39,7 +40,8 @@ void propagate(const compile::CompiledScene& world, const PathSettings& settings
   for (const auto& path : paths) {
     const PathState& s = path->state;
     const SobolPoint u = path->sampler->point(id(Decision::distance, s), 2);
-    path->light().set(world, path->march(), s.throughput, settings.method, settings.distance);
+    path->light().set(world, path->march(), s.throughput, settings.method, settings.distance,
+                      settings.orders_after(s.media_scatterings));
     path->light().aim({}, path->flight(), worker);
     fly_to_depth(path->march(), s.throughput, u[0], u[1], path->flight());
   }

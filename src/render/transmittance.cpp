@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/check.h"
 #include "base/numerics.h"
 #include "render/crossings.h"
 #include "render/estimators.h"
@@ -29,7 +30,8 @@ std::uint32_t march_seed(std::uint32_t seed, std::uint32_t march) {
 }  // namespace
 
 std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& world, Transmittance method,
-                                              Worker& worker) {
+                                              std::span<const ScatteringOrder> orders, Worker& worker) {
+  CHECK(orders.empty() || !by_ratio(method));
   closed_.assign(rays_.size(), Vec3d{});
   estimates_.assign(rays_.size(), {0, 0});
   depth_.clear();
@@ -37,23 +39,34 @@ std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& worl
   ratio_.clear(rays_.size());
   for (std::uint32_t r = 0; r < rays_.size(); ++r) {
     ++worker.statistics.shadow_rays;
-    if (world.features.see_through)
-      rays_[r].contribution *= pass_to_light(world, rays_[r].ray, rays_[r].target_light, worker);
-    else if (world.occluded(rays_[r].ray, rays_[r].target_light))
-      rays_[r].contribution = {};
-    if (world.features.volumes && !is_black(rays_[r].contribution)) collect_stays(world, r, method, worker);
+    const float visible = world.features.see_through
+                              ? pass_to_light(world, rays_[r].ray, rays_[r].target_light, worker)
+                              : !world.occluded(rays_[r].ray, rays_[r].target_light);
+    rays_[r].contribution *= visible;
+    rays_[r].higher = Rgb(visible);
+    const bool brings = !is_black(rays_[r].contribution) || (visible > 0 && rays_[r].has_higher());
+    if (world.features.volumes && brings) collect_stays(world, r, method, worker);
   }
   march_stays(world, worker);
   ratio_.run(world, method, rays_, worker);
 
-  const bool grey = !world.features.chromatic_extinction;
   for (std::uint32_t r = 0; r < rays_.size(); ++r) {
-    Vec3d t;
-    for (std::size_t c = 0; c < 3; ++c)
-      t[c] = c > 0 && grey ? t[0] : transmittance(r, c, method) * ratio_.transmittance(r)[c];
-    rays_[r].contribution *= Rgb(t);
+    rays_[r].contribution *= transmittance(world, r, method, 1);
+    Rgb higher;
+    for (std::size_t k = 0; rays_[r].has_higher() && k < orders.size(); ++k)
+      higher += higher_[rays_[r].first_higher + k] * transmittance(world, r, method, orders[k].extinction);
+    rays_[r].higher *= higher;
   }
   return rays_;
+}
+
+Rgb ShadowBatch::transmittance(const compile::CompiledScene& world, std::uint32_t ray, Transmittance method,
+                               double extinction) {
+  const bool grey = !world.features.chromatic_extinction;
+  Vec3d t;
+  for (std::size_t c = 0; c < 3; ++c)
+    t[c] = c > 0 && grey ? t[0] : transmittance(ray, c, method, extinction) * ratio_.transmittance(ray)[c];
+  return Rgb(t);
 }
 
 // Closed forms at once; the rest is kept for the march.
@@ -107,12 +120,12 @@ void ShadowBatch::lay_estimates(std::uint32_t ray, Transmittance method) {
   depth_.resize(depth_.size() + e.count);
 }
 
-double ShadowBatch::transmittance(std::uint32_t ray, std::size_t c, Transmittance method) {
+double ShadowBatch::transmittance(std::uint32_t ray, std::size_t c, Transmittance method, double extinction) {
   const Estimates& e = estimates_[ray];
-  const double closed = std::exp(-closed_[ray][c]);
+  const double closed = std::exp(-extinction * closed_[ray][c]);
   if (e.count == 0) return closed;
   one_channel_.clear();
-  for (std::uint32_t k = 0; k < e.count; ++k) one_channel_.push_back(depth_[e.first + k][c]);
+  for (std::uint32_t k = 0; k < e.count; ++k) one_channel_.push_back(extinction * depth_[e.first + k][c]);
   switch (method) {
     case Transmittance::march:
     case Transmittance::ratio:

@@ -8,6 +8,7 @@
 
 #include "compile/compiled_scene.h"
 #include "render/aov.h"
+#include "render/higher_orders.h"
 #include "render/ratio_tracking.h"
 #include "render/render.h"
 #include "render/stretches.h"
@@ -22,27 +23,43 @@ struct ShadowRay {
   Rgb contribution;          // what arrives if nothing is in the way
   std::uint32_t seed = 0;    // of its march's jitter
   std::uint32_t sample = 0;  // whose light it is: the caller's number
-  LightPart part{};
+  LightPart part{}, higher_part{};
   std::uint32_t segments = 0;  // that were evaluated for it
+  // What higher orders of scattering bring: each one's, in the batch's list from here, if any; traced, their
+  // sum.
+  std::uint32_t first_higher = compile::no_index;
+  Rgb higher{};
+  bool has_higher() const { return first_higher != compile::no_index; }
 };
 
 // Shadow rays waiting to be traced together.
 class ShadowBatch {
  public:
   // The rays added from now on bring light to this sample.
-  void set_sample(std::uint32_t sample, LightPart part) {
+  void set_sample(std::uint32_t sample, LightPart part, LightPart higher_part = LightPart::volume_indirect) {
     sample_ = sample;
     part_ = part;
+    higher_part_ = higher_part;
   }
-  void add(const ShadowRay& ray) {
+  // `higher`: what higher orders bring if nothing is in the way, of all that `trace` is given, or none.
+  void add(const ShadowRay& ray, std::span<const Rgb> higher = {}) {
     rays_.push_back(ray);
     rays_.back().sample = sample_;
     rays_.back().part = part_;
+    rays_.back().higher_part = higher_part_;
+    if (higher.empty()) return;
+    rays_.back().first_higher = static_cast<std::uint32_t>(higher_.size());
+    higher_.insert(higher_.end(), higher.begin(), higher.end());
   }
   // Leaves in each ray's contribution what arrives: times visibility and transmittance, which an unbiased
   // estimator may make negative.
-  std::span<const ShadowRay> trace(const compile::CompiledScene& world, Transmittance method, Worker& worker);
-  void clear() { rays_.clear(); }
+  // `orders` see their own share of the extinction; not with methods by ratio.
+  std::span<const ShadowRay> trace(const compile::CompiledScene& world, Transmittance method,
+                                   std::span<const ScatteringOrder> orders, Worker& worker);
+  void clear() {
+    rays_.clear();
+    higher_.clear();
+  }
 
  private:
   // Estimates of one ray's optical depth: `count` independent marches, in rows of depth_ from `first`.
@@ -58,11 +75,15 @@ class ShadowBatch {
   void collect_stays(const compile::CompiledScene& world, std::uint32_t ray, Transmittance method,
                      Worker& worker);
   void march_stays(const compile::CompiledScene& world, Worker& worker);
-  double transmittance(std::uint32_t ray, std::size_t channel, Transmittance method);
+  // Through `extinction` times the extinction.
+  double transmittance(std::uint32_t ray, std::size_t channel, Transmittance method, double extinction);
+  Rgb transmittance(const compile::CompiledScene& world, std::uint32_t ray, Transmittance method,
+                    double extinction);
 
   std::uint32_t sample_ = 0;
-  LightPart part_{};
+  LightPart part_{}, higher_part_{};
   std::vector<ShadowRay> rays_;
+  std::vector<Rgb> higher_;
   std::vector<Estimates> estimates_;  // per ray
   std::vector<Vec3d> closed_;         // optical depth known in closed form, per ray
   std::vector<Vec3d> depth_;          // estimated optical depth, per march

@@ -76,6 +76,7 @@ struct Worker {
   LightChoice surface_lights;
   PhaseMixture phase;
   ShadowBatch shadows;
+  std::vector<Rgb> higher_contributions;  // of one shadow ray
   std::vector<Intervald> stretches;
   Product product;
   std::vector<FlightRequest> flight_requests;

@@ -29,6 +29,7 @@ struct RenderParameters {
   int light_samples = scene::RenderSettings{}.light_samples;
   int bounces = scene::RenderSettings{}.bounces;
   std::uint64_t seed = scene::RenderSettings{}.seed;
+  scene::MultipleScattering multiple_scattering;
   template <class F>
   static void fields(F&& field) {
     using P = RenderParameters;
@@ -39,6 +40,8 @@ struct RenderParameters {
     field(&P::light_samples, FieldInfo{"light_samples", "light points for each path segment, >= 1"});
     field(&P::bounces, FieldInfo{"bounces", "scatterings and reflections at most, >= 0"});
     field(&P::seed, FieldInfo{"seed", "of the random numbers, a whole number >= 0"});
+    field(&P::multiple_scattering,
+          FieldInfo{"multiple_scattering", "of light in media: `full`, or `approximate(…)`, which see"});
   }
 };
 

@@ -14,22 +14,6 @@ namespace tyndall::resolve {
 
 namespace {
 
-std::string_view unit_name(syntax::Unit unit) {
-  switch (unit) {
-    case syntax::Unit::none:
-      return "a bare number";
-    case syntax::Unit::length:
-      return "a length";
-    case syntax::Unit::time:
-      return "a time";
-    case syntax::Unit::temperature:
-      return "a temperature";
-    case syntax::Unit::angle:
-      return "an angle";
-  }
-  return {};
-}
-
 // Whether a number written with `unit` can be a `quantity`; bare numbers fit everything but angles, which
 // have a type of their own.
 bool fits(Quantity quantity, syntax::Unit unit) {
@@ -69,6 +53,22 @@ std::string_view wanted(Quantity quantity) {
 }
 
 }  // namespace
+
+std::string_view unit_name(syntax::Unit unit) {
+  switch (unit) {
+    case syntax::Unit::none:
+      return "a bare number";
+    case syntax::Unit::length:
+      return "a length";
+    case syntax::Unit::time:
+      return "a time";
+    case syntax::Unit::temperature:
+      return "a temperature";
+    case syntax::Unit::angle:
+      return "an angle";
+  }
+  return {};
+}
 
 std::string no_parameter(std::string_view name, std::string_view keyword) {
   return fmt::format("no parameter '{}' in '{}'", name, keyword);
@@ -320,48 +320,6 @@ void Reader::read_value(const FieldInfo& info, const Given& given, std::vector<V
 void Reader::read_value(const FieldInfo& info, const Given& given, std::vector<Pair<double>>& to) {
   for (const eval::Value& element : read_list(eval::Type::pair, info, given))
     to.push_back({element.scalars[0].value, element.scalars[1].value});
-}
-
-// A length, or the choice `auto`: alone, or with its tolerance as if it were called.
-void Reader::read_value(const FieldInfo& info, const Given& given, scene::Step& to) {
-  const syntax::SyntaxTree& tree = *site_.tree;
-  const auto is_auto = [&](syntax::ExprId id) {
-    const auto* name = std::get_if<syntax::NameExpr>(&tree[id].node);
-    return name && symbols_.text(name->symbol) == "auto";
-  };
-  const syntax::ExprId written = given.item->value;
-  if (is_auto(written)) {
-    to = scene::Step::automatic_unproven();
-    return;
-  }
-  const auto* call = std::get_if<syntax::CallExpr>(&tree[written].node);
-  if (!call || !is_auto(call->callee)) {
-    const eval::Value value = evaluate(eval::Type::number, info, given);
-    if (!value.is_error()) to = value.as_number();
-    return;
-  }
-  const auto arguments = tree.list_of_arguments(call->arguments);
-  constexpr std::string_view help =
-      "`auto(1%)`: what may be added to the light of any ray, above 0% and below 100%";
-  if (arguments.size() != 1 || arguments[0].name.span.valid())
-    return error(value_span(given), fmt::format("'{}: auto' wants one tolerance", info.name),
-                 std::string(help));
-  const syntax::ExprId argument = arguments[0].value;
-  const eval::Value value =
-      evaluator_.evaluate_as(eval::Type::number, tree, argument, *site_.scope, "tolerance");
-  if (value.is_error()) {
-    ok_ = false;
-  } else if (value.unit != syntax::Unit::none) {
-    error(tree[argument].span,
-          fmt::format("the tolerance of 'auto' is a share, found {}", unit_name(value.unit)),
-          std::string(help));
-  } else if (!(value.as_number() > 0 && value.as_number() < 1)) {
-    error(tree[argument].span,
-          fmt::format("the tolerance of 'auto' must be above 0% and below 100%, found {}%",
-                      value.as_number() * 100));
-  } else {
-    to = scene::Step::automatic_within(value.as_number());
-  }
 }
 
 void Reader::read_value(const FieldInfo& info, const Given& given, Thing& to) {

@@ -46,6 +46,9 @@ using Schemas =
               optics::SphereLight, optics::QuadLight, optics::DiskLight, optics::MeshLight,
               optics::DistantLight, optics::EnvironmentLight>;
 
+// As in messages: "a length".
+std::string_view unit_name(syntax::Unit unit);
+
 // The text a block belongs to and the names in force where its values stand.
 struct ReaderSite {
   const syntax::SyntaxTree* tree = nullptr;
@@ -111,7 +114,14 @@ class Reader {
   void read_value(const FieldInfo& info, const Given& given, Pair<int>& to);
   void read_value(const FieldInfo& info, const Given& given, Transform& to);
   void read_value(const FieldInfo& info, const Given& given, eval::RangeValue& to);
+  // Values with words of their own (reader_choices.cpp).
   void read_value(const FieldInfo& info, const Given& given, scene::Step& to);
+  void read_value(const FieldInfo& info, const Given& given, scene::MultipleScattering& to);
+  // The word that an expression is, or empty.
+  std::string_view word(syntax::ExprId id) const;
+  // The arguments of a choice that is called, into the fields of T.
+  template <class T>
+  void read_arguments(const syntax::CallExpr& call, T& to);
   void read_value(const FieldInfo& info, const Given& given, Thing& to);
   void read_value(const FieldInfo& info, const Given& given, std::vector<Vec3d>& to);
   void read_value(const FieldInfo& info, const Given& given, std::vector<Pair<double>>& to);

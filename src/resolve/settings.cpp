@@ -54,8 +54,9 @@ void run_render(Run& run, const Site& site, const syntax::ThingItem& thing, cons
   Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
   const auto given = reader.read<RenderParameters>();
   reader.finish();
-  const scene::RenderSettings settings{given.resolution.x,  given.resolution.y, given.samples, given.step,
-                                       given.light_samples, given.bounces,      given.seed};
+  const scene::RenderSettings settings{given.resolution.x, given.resolution.y,       given.samples,
+                                       given.step,         given.light_samples,      given.bounces,
+                                       given.seed,         given.multiple_scattering};
   if (reader.ok()) reader.report(scene::validate(settings));
   if (reader.ok()) run.scene.settings = settings;
 }

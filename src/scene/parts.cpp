@@ -85,4 +85,14 @@ std::string describe(const Step& step) {
   return step.proven ? fmt::format("auto({}%)", step.tolerance * 100) : "auto";
 }
 
+std::string describe(const MultipleScattering& scattering) {
+  if (!scattering.approximate) return std::string(MultipleScattering::full);
+  std::string arguments;
+  ApproximateScattering::fields([&](auto member, const FieldInfo& info) {
+    arguments +=
+        fmt::format("{}{}: {}", arguments.empty() ? "" : ", ", info.name, *scattering.approximate.*member);
+  });
+  return fmt::format("{}({})", ApproximateScattering::keyword, arguments);
+}
+
 }  // namespace tyndall::scene

@@ -43,6 +43,7 @@ class Printer {
   void put(std::uint64_t v) { fmt::format_to(out(), "{}", v); }
   void put(std::uint32_t v) { fmt::format_to(out(), "{}", v); }
   void put(const Step& v) { put_text(describe(v)); }
+  void put(const MultipleScattering& v) { put_text(describe(v)); }
   void put(bool v) { put_text(v ? "true" : "false"); }
   void put(const Angle& a) { fmt::format_to(out(), "{}rad", a.radians); }
   void put(std::string_view v) { put_text(v); }
@@ -113,6 +114,7 @@ void print_settings(Printer& p, const Scene& scene) {
   p.item("light_samples", s.light_samples);
   p.item("bounces", s.bounces);
   p.item("seed", s.seed);
+  p.item("multiple_scattering", s.multiple_scattering);
   p.line(Animation::keyword);
   p.item("fps", scene.animation.fps);
   p.item("first_frame", scene.animation.first_frame);

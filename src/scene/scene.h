@@ -16,6 +16,7 @@
 #include "optics/surface_model.h"
 #include "scene/medium.h"
 #include "scene/motion.h"
+#include "scene/multiple_scattering.h"
 #include "scene/step.h"
 #include "vm/program.h"
 
@@ -31,6 +32,7 @@ struct RenderSettings {
   int light_samples = 1;
   int bounces = 1024;
   std::uint64_t seed = 0;
+  MultipleScattering multiple_scattering;
 };
 
 struct Animation {

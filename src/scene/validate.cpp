@@ -12,6 +12,8 @@ namespace {
 // The largest side of a picture [pixels]: the film's memory stays addressable.
 constexpr int max_resolution = 16384;
 
+constexpr int max_scattering_orders = 64;
+
 std::string text(const Vec3d& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
 
 void want_positive(Problems& problems, std::string_view field, double value, std::string help = {}) {
@@ -27,6 +29,11 @@ void want_not_negative(Problems& problems, std::string_view field, double value)
 void want_at_least(Problems& problems, std::string_view field, int value, int least) {
   if (value < least)
     problems.push_back({field, fmt::format("'{}' must be at least {}, found {}", field, least, value)});
+}
+
+void want_share(Problems& problems, std::string_view field, double value) {
+  if (!(value >= 0 && value <= 1))
+    problems.push_back({field, fmt::format("'{}' must be from 0 to 1, found {}", field, value)});
 }
 
 // An emitted quantity: every channel is finite and not negative.
@@ -79,6 +86,19 @@ Problems validate(const RenderSettings& s) {
   if (!s.step.automatic()) want_positive(problems, "step", s.step.metres);
   want_at_least(problems, "light_samples", s.light_samples, 1);
   want_at_least(problems, "bounces", s.bounces, 0);
+  return problems;
+}
+
+Problems validate(const ApproximateScattering& a) {
+  Problems problems;
+  want_at_least(problems, "real", a.real, 0);
+  want_at_least(problems, "orders", a.orders, 0);
+  if (a.orders > max_scattering_orders)
+    problems.push_back(
+        {"orders", fmt::format("'orders' must be at most {}, found {}", max_scattering_orders, a.orders)});
+  want_share(problems, "extinction", a.extinction);
+  want_share(problems, "contribution", a.contribution);
+  want_share(problems, "anisotropy", a.anisotropy);
   return problems;
 }
 

@@ -22,6 +22,7 @@ using Problems = std::vector<Problem>;
 
 // The problems of one thing; empty when it is sound. No memory is taken for a sound one.
 Problems validate(const RenderSettings& settings);
+Problems validate(const ApproximateScattering& approximation);
 Problems validate(const Animation& animation);
 Problems validate(const PerspectiveCamera& camera);
 Problems validate(const OrthographicCamera& camera);

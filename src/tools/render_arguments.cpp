@@ -69,6 +69,11 @@ std::optional<scene::Step> read_step(std::string_view text) {
   return scene::Step::automatic_within(number);
 }
 
+constexpr Choice<MultipleScatteringChoice> multiple_scatterings[] = {
+    {scene::MultipleScattering::full, MultipleScatteringChoice::full},
+    {scene::ApproximateScattering::keyword, MultipleScatteringChoice::approximate},
+};
+
 [[noreturn]] void refuse(const std::string& option, std::string_view wanted, const std::string& text) {
   throw CLI::ValidationError(option, fmt::format("wants {}, not '{}'", wanted, text));
 }
@@ -128,6 +133,19 @@ void add_quality_options(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--bounces", arguments.bounces, "Scatterings after the first, in place of the scene's")
       ->check(CLI::Range(0, max_count))
       ->option_text("N");
+  command
+      .add_option_function<std::string>(
+          "--multiple-scattering",
+          [&arguments](const std::string& text) {
+            for (const auto& [name, choice] : multiple_scatterings)
+              if (name == text) arguments.multiple_scattering = choice;
+            if (!arguments.multiple_scattering)
+              refuse("--multiple-scattering", "one of " + names_of(multiple_scatterings, ", "), text);
+          },
+          "Follow light through all scatterings in media, or approximate those after the first ones, in "
+          "place "
+          "of what the scene says")
+      ->option_text(names_of(multiple_scatterings, "|"));
   command.add_option("--seed", arguments.seed, "Seed of the random numbers, in place of the scene's")
       ->check(not_below_zero)
       ->option_text("N");
@@ -271,6 +289,10 @@ void apply_settings(const RenderArguments& arguments, scene::RenderSettings& set
   settings.step = arguments.step.value_or(settings.step);
   settings.light_samples = arguments.light_samples.value_or(settings.light_samples);
   settings.bounces = arguments.bounces.value_or(settings.bounces);
+  if (arguments.multiple_scattering == MultipleScatteringChoice::full)
+    settings.multiple_scattering.approximate.reset();
+  else if (arguments.multiple_scattering && !settings.multiple_scattering.approximate)
+    settings.multiple_scattering.approximate.emplace();
   settings.seed = arguments.seed.value_or(settings.seed);
 }
 
@@ -290,6 +312,9 @@ std::string replay_command(const RenderArguments& arguments, int x, int y, std::
   if (arguments.step) command += " --step " + shell_word(scene::describe(*arguments.step));
   add("--light-samples", arguments.light_samples);
   add("--bounces", arguments.bounces);
+  if (arguments.multiple_scattering)
+    command += fmt::format(" --multiple-scattering {}",
+                           name_in(multiple_scatterings, *arguments.multiple_scattering));
   add("--seed", arguments.seed);
   add("--error", arguments.error);
   if (arguments.aovs.has(render::Aov::variance)) command += " --aov variance";

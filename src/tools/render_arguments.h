@@ -16,6 +16,9 @@ struct SampleRange {
   int first = 0, last = 0;
 };
 
+// Overrides how the scene wants light that is scattered many times: `approximate` keeps the scene's numbers.
+enum class MultipleScatteringChoice : std::uint8_t { full, approximate };
+
 struct RenderArguments {
   SceneRequest scene;
   std::string output, statistics_file;
@@ -23,6 +26,7 @@ struct RenderArguments {
   std::optional<render::RenderOptions::Crop> crop;
   std::optional<int> samples, light_samples, bounces;
   std::optional<scene::Step> step;
+  std::optional<MultipleScatteringChoice> multiple_scattering;
   std::optional<std::uint64_t> seed, sample;
   std::optional<SampleRange> sample_range;
   std::optional<double> error;       // root of the mean squared relative error

@@ -61,6 +61,16 @@ std::string picture_problem(const RenderArguments& arguments, const scene::Rende
   return {};
 }
 
+// What of the options does not go with the scene's multiple scattering.
+std::string scattering_problem(const RenderArguments& arguments, const scene::RenderSettings& settings) {
+  if (!settings.multiple_scattering.approximate || !render::by_ratio(arguments.transmittance)) return {};
+  return fmt::format(
+      "--transmittance {} does not go with `multiple_scattering: approximate`, which wants optical depths: "
+      "use "
+      "march, jackknife or series, or --multiple-scattering full",
+      name(arguments.transmittance));
+}
+
 double exposure_of(const scene::Scene& scene) {
   return std::visit([](const auto& camera) { return camera.exposure; }, scene.camera);
 }
@@ -196,6 +206,8 @@ ExitStatus run_render(const RenderArguments& arguments) {
   const std::string scene_hash = stable_hash(scene::print(loaded->scene));
   apply_settings(arguments, loaded->scene.settings);
   if (const std::string problem = picture_problem(arguments, loaded->scene.settings); !problem.empty())
+    return misuse(problem);
+  if (const std::string problem = scattering_problem(arguments, loaded->scene.settings); !problem.empty())
     return misuse(problem);
 
   StageSeconds seconds{loaded->seconds.read, loaded->seconds.parse, loaded->seconds.resolve};

@@ -56,10 +56,11 @@ std::string stable_hash(std::string_view text) {
 image::Metadata metadata_of(const RenderArguments& arguments, const scene::Scene& scene,
                             const std::string& scene_hash, const render::Statistics& statistics) {
   const SampleRange samples = samples_of(arguments, scene);
-  std::string settings =
-      fmt::format("step={} light_samples={} bounces={} method={} distance={} transmittance={}",
-                  scene::describe(scene.settings.step), scene.settings.light_samples, scene.settings.bounces,
-                  name(arguments.method), name(arguments.distance), name(arguments.transmittance));
+  std::string settings = fmt::format(
+      "step={} light_samples={} bounces={} multiple_scattering={} method={} distance={} transmittance={}",
+      scene::describe(scene.settings.step), scene.settings.light_samples, scene.settings.bounces,
+      scene::describe(scene.settings.multiple_scattering), name(arguments.method), name(arguments.distance),
+      name(arguments.transmittance));
   if (arguments.crop) {
     const auto& crop = *arguments.crop;
     settings += fmt::format(" crop={},{},{},{}", crop.x0, crop.y0, crop.x1, crop.y1);

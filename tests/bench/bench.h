@@ -13,6 +13,10 @@ void bench_bounds(double seconds_a_row);
 // Ten lights against a thousand, at equal error. False when a thousand cost more than three times as much.
 bool bench_lights();
 
+// `multiple_scattering: approximate` against the full solution: error and time on clouds and smoke. False
+// when a scene cannot be read.
+bool bench_scattering();
+
 // The estimators of transmittance on known densities: bias and error at each cost.
 void bench_transmittance();
 

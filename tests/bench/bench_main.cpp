@@ -1,5 +1,5 @@
-// tyndall-bench [vm|ops|bounds|scenes|lights|transmittance|verify|language] [seconds]: how fast things are,
-// by hand; no test. Exits with 1 when a target is missed.
+// tyndall-bench [vm|ops|bounds|scenes|lights|scattering|transmittance|verify|language] [seconds]: how fast
+// things are, by hand; no test. Exits with 1 when a target is missed.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -12,12 +12,13 @@ int main(int argc, char** argv) {
   const double seconds = argc > 2 ? std::atof(argv[2]) : 0.3;
   const bool all = what == "all";
   const bool known = all || what == "vm" || what == "ops" || what == "bounds" || what == "scenes" ||
-                     what == "lights" || what == "transmittance" || what == "verify" || what == "language";
+                     what == "lights" || what == "scattering" || what == "transmittance" ||
+                     what == "verify" || what == "language";
   if (!known || !(seconds > 0)) {
-    fmt::print(
-        stderr,
-        "usage: tyndall-bench [vm|ops|bounds|scenes|lights|transmittance|verify|language|all] [seconds a "
-        "row, > 0]\n");
+    fmt::print(stderr,
+               "usage: tyndall-bench "
+               "[vm|ops|bounds|scenes|lights|scattering|transmittance|verify|language|all] [seconds a "
+               "row, > 0]\n");
     return 2;
   }
   bool good = true;
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   if (what == "ops") tyndall::vm::bench_ops(seconds / 10);
   if (all || what == "bounds") tyndall::bench_bounds(seconds);
   if (all || what == "lights") good &= tyndall::bench_lights();
+  if (what == "scattering") good &= tyndall::bench_scattering();
   if (what == "transmittance") tyndall::bench_transmittance();
   if (what == "verify") good = tyndall::print_verification();
   if (all || what == "scenes") good &= tyndall::bench_scenes(seconds);

@@ -36,6 +36,7 @@ std::string shown(int value) { return fmt::format("{}", value); }
 std::string shown(std::uint64_t value) { return fmt::format("{}", value); }
 std::string shown(bool value) { return value ? "true" : "false"; }
 std::string shown(const scene::Step& value) { return scene::describe(value); }
+std::string shown(const scene::MultipleScattering& value) { return scene::describe(value); }
 std::string shown(Angle value) { return fmt::format("{:.4g}deg", value.radians * 180 / 3.14159265358979); }
 std::string shown(const Vec3d& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
 std::string shown(const Pair<int>& p) { return fmt::format("({}, {})", p.x, p.y); }

@@ -56,7 +56,7 @@ inline TransmittanceMeasure measure_transmittance(const KnownDensity& known, ren
     for (int k = 0; k < together; ++k)
       worker.shadows.add({ray, compile::no_index, Rgb(1),
                           static_cast<std::uint32_t>(hash_bits(seed, static_cast<std::uint64_t>(done + k)))});
-    for (const render::ShadowRay& r : worker.shadows.trace(world, method, worker)) {
+    for (const render::ShadowRay& r : worker.shadows.trace(world, method, {}, worker)) {
       const double t = r.contribution.y;
       sum += t;
       squares += t * t;
