@@ -11,15 +11,11 @@ namespace {
 
 constexpr std::int32_t side = MajorantGrid::brick_side, block_side = MajorantGrid::block_side;
 
-bool same(const CellBounds& a, const CellBounds& b) {
-  return a.kind == b.kind && a.majorant == b.majorant && a.minorant == b.minorant && a.spread == b.spread;
-}
-
 }  // namespace
 
 GridWalk::GridWalk(const MajorantGrid& grid, const Transform& medium_from_render, const Ray& ray, double t0,
-                   double t1, BoundsScratch& scratch, Detail detail)
-    : grid_(grid), scratch_(scratch), detail_(detail), t_(t0), end_(t1) {
+                   double t1, BoundsScratch& scratch)
+    : grid_(grid), scratch_(scratch), t_(t0), end_(t1) {
   const Vec3d o = medium_from_render.point(ray.origin) - grid.domain().box.lo,
               d = medium_from_render.vector(ray.direction);
   std::array<std::int32_t, 3> cell{};
@@ -65,8 +61,7 @@ void GridWalk::enter(const std::array<std::int32_t, 3>& cell) {
     one_step_ = true;
   } else {
     width_ = block_side;
-    const BlockKind kind = brick_->cells->block[MajorantGrid::block_of(static_cast<std::uint32_t>(inner_))];
-    one_step_ = kind == BlockKind::empty || (kind == BlockKind::varying && detail_ == Detail::kinds);
+    one_step_ = brick_->cells->empty_block[MajorantGrid::block_of(static_cast<std::uint32_t>(inner_))];
   }
   for (std::size_t i = 0; i < 3; ++i) {
     Axis& a = axes_[i];
@@ -123,9 +118,7 @@ bool GridWalk::next(MajorantSegment& out) {
   ahead_ = {};
   while (t_ < end_) {
     const MajorantSegment s = step();
-    const bool varying = detail_ == Detail::kinds && s.bounds.kind == CellKind::varying &&
-                         out.bounds.kind == CellKind::varying;
-    if (s.t0 < s.t1 && !varying && !same(s.bounds, out.bounds)) {
+    if (s.t0 < s.t1 && s.bounds != out.bounds) {
       if (out.t0 < out.t1) {
         ahead_ = s;
         return true;

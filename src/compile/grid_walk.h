@@ -1,4 +1,4 @@
-// The cells of a majorant grid along a ray: what tracking, ratio tracking, skipping and step sizes need.
+// The cells of a majorant grid along a ray: what tracking, ratio tracking and step sizes need.
 //
 //   compile::GridWalk walk(*volume.grid, volume.medium_from_render, ray, interval.t0, interval.t1,
 //   worker.bounds); compile::MajorantSegment s; while (walk.next(s)) …  // s.t0 of the first is interval.t0;
@@ -24,13 +24,9 @@ struct MajorantSegment {
 
 class GridWalk {
  public:
-  // All bounds, or only what is empty, uniform and varying: then varying neighbours are one segment whose
-  // numbers mean nothing.
-  enum class Detail : bool { bounds, kinds };
-
   // Over [t0, t1) of the ray; makes what cells it meets.
   GridWalk(const MajorantGrid& grid, const Transform& medium_from_render, const Ray& ray, double t0,
-           double t1, BoundsScratch& scratch, Detail detail = Detail::bounds);
+           double t1, BoundsScratch& scratch);
 
   // The next segment, or false at the end.
   bool next(MajorantSegment& out);
@@ -51,7 +47,6 @@ class GridWalk {
 
   const MajorantGrid& grid_;
   BoundsScratch& scratch_;
-  Detail detail_;
   std::array<Axis, 3> axes_{};
   double t_, end_;
   const MajorantGrid::Brick* brick_ = nullptr;

@@ -47,19 +47,17 @@ std::array<std::uint32_t, 3> bricks_for(const Vec3d& extent, std::uint32_t most_
           static_cast<std::uint32_t>(along(extent.z, brick))};
 }
 
-std::array<BlockKind, 8> block_kinds(const std::array<CellKind, MajorantGrid::brick_cells>& kinds) {
-  std::array<bool, 8> empty{}, varying{};
+std::array<bool, 8> empty_blocks(const std::array<CellKind, MajorantGrid::brick_cells>& kinds) {
+  std::array<bool, 8> empty{};
   empty.fill(true);
-  varying.fill(true);
-  for (std::uint32_t i = 0; i < MajorantGrid::brick_cells; ++i) {
-    const std::uint32_t b = MajorantGrid::block_of(i);
-    empty[b] = empty[b] && kinds[i] == CellKind::empty;
-    varying[b] = varying[b] && kinds[i] == CellKind::varying;
-  }
-  std::array<BlockKind, 8> blocks{};
-  for (std::size_t b = 0; b < 8; ++b)
-    blocks[b] = empty[b] ? BlockKind::empty : varying[b] ? BlockKind::varying : BlockKind::mixed;
-  return blocks;
+  for (std::uint32_t i = 0; i < MajorantGrid::brick_cells; ++i)
+    empty[MajorantGrid::block_of(i)] &= kinds[i] == CellKind::empty;
+  return empty;
+}
+
+std::uint32_t place_in_brick(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  constexpr std::uint32_t side = MajorantGrid::brick_side;
+  return (z % side * side + y % side) * side + x % side;
 }
 
 void add_unique(std::vector<std::uint8_t>& list, const scene::RgbOutputs& outputs) {
@@ -79,6 +77,12 @@ MajorantGrid::MajorantGrid(const scene::Medium& medium, const Domain& domain)
   add_unique(coefficients_, medium.sigma_s);
   if (medium.emission) add_unique(coefficients_, *medium.emission);
   made_ = std::vector<std::atomic<Brick*>>(brick_count());
+  for (int level = 0; level < levels; ++level) {
+    const std::array<std::uint32_t, 3> n = groups(level);
+    auto& kinds = kinds_[static_cast<std::size_t>(level)];
+    kinds = std::vector<std::atomic<std::uint8_t>>(std::size_t{n[0]} * n[1] * n[2]);
+    for (auto& kind : kinds) kind.store(unknown, std::memory_order_relaxed);
+  }
 }
 
 MajorantGrid::~MajorantGrid() {
@@ -93,8 +97,7 @@ CellBounds MajorantGrid::at(const Vec3d& p, BoundsScratch& scratch) const {
         place > 0 ? static_cast<std::uint32_t>(std::min(place, bricks_[axis] * brick_side - 1.0)) : 0;
   }
   const Brick& b = brick(cell[0] / brick_side, cell[1] / brick_side, cell[2] / brick_side, scratch);
-  return b.cell((cell[2] % brick_side * brick_side + cell[1] % brick_side) * brick_side +
-                cell[0] % brick_side);
+  return b.cell(place_in_brick(cell[0], cell[1], cell[2]));
 }
 
 double MajorantGrid::plain_share(BoundsScratch& scratch) const {
@@ -116,10 +119,63 @@ double MajorantGrid::plain_share(BoundsScratch& scratch) const {
 const MajorantGrid::Brick& MajorantGrid::make(std::size_t index, const std::array<std::uint32_t, 3>& at,
                                               BoundsScratch& scratch) const {
   std::unique_ptr<Brick> brick = computed(at, scratch);
+  note_kinds(at, *brick);
   Brick* expected = nullptr;
   if (made_[index].compare_exchange_strong(expected, brick.get(), std::memory_order_acq_rel))
     return *brick.release();
   return *expected;
+}
+
+std::array<std::uint32_t, 3> MajorantGrid::cell_of(int level, std::size_t group) const {
+  const std::array<std::uint32_t, 3> n = groups(level);
+  return {static_cast<std::uint32_t>(group % n[0]) << level,
+          static_cast<std::uint32_t>(group / n[0] % n[1]) << level,
+          static_cast<std::uint32_t>(group / n[0] / n[1]) << level};
+}
+
+CellKind MajorantGrid::make_kind(int level, std::size_t group, BoundsScratch& scratch) const {
+  const std::array<std::uint32_t, 3> cell = cell_of(level, group);
+  brick(cell[0] / brick_side, cell[1] / brick_side, cell[2] / brick_side, scratch);
+  return static_cast<CellKind>(
+      kinds_[static_cast<std::size_t>(level)][group].load(std::memory_order_relaxed));
+}
+
+bool MajorantGrid::same_values(int level, std::size_t a, std::size_t b, BoundsScratch& scratch) const {
+  const auto bounds = [&](std::size_t group) {
+    const std::array<std::uint32_t, 3> c = cell_of(level, group);
+    return brick(c[0] / brick_side, c[1] / brick_side, c[2] / brick_side, scratch)
+        .cell(place_in_brick(c[0], c[1], c[2]));
+  };
+  return bounds(a) == bounds(b);
+}
+
+// Level by level, each from the one below.
+void MajorantGrid::note_kinds(const std::array<std::uint32_t, 3>& at, const Brick& brick) const {
+  std::array<CellBounds, brick_cells> bounds;  // of the groups; of uniform ones, those of every cell
+  for (std::uint32_t i = 0; i < brick_cells; ++i) bounds[i] = brick.cell(i);
+  for (int level = 0; level < levels; ++level) {
+    const std::uint32_t side = brick_side >> level;
+    const std::array<std::uint32_t, 3> n = groups(level);
+    for (std::uint32_t z = 0, i = 0; z < side; ++z)
+      for (std::uint32_t y = 0; y < side; ++y)
+        for (std::uint32_t x = 0; x < side; ++x, ++i) {
+          if (level > 0) {
+            // Written before it is read: a group's place is not above those of its parts.
+            CellBounds whole = bounds[(2 * z * 2 * side + 2 * y) * 2 * side + 2 * x];
+            for (std::uint32_t part = 1; part < 8; ++part) {
+              const std::uint32_t px = 2 * x + (part & 1), py = 2 * y + (part >> 1 & 1),
+                                  pz = 2 * z + (part >> 2);
+              const CellBounds& other = bounds[(pz * 2 * side + py) * 2 * side + px];
+              if (whole.kind != other.kind || (whole.kind == CellKind::uniform && whole != other))
+                whole.kind = CellKind::varying;
+            }
+            bounds[i] = whole;
+          }
+          kinds_[static_cast<std::size_t>(level)]
+                [(std::size_t{at[2] * side + z} * n[1] + at[1] * side + y) * n[0] + at[0] * side + x]
+                    .store(static_cast<std::uint8_t>(bounds[i].kind), std::memory_order_relaxed);
+        }
+  }
 }
 
 // Adds a box of p, and where it is in the world.
@@ -243,7 +299,7 @@ std::unique_ptr<MajorantGrid::Brick> MajorantGrid::computed(const std::array<std
   evaluate(boxes, scratch);
   for (std::size_t k = 0; k < scratch.loose.size(); ++k)
     set(scratch.loose[k], summary(k * 8, 8, boxes, scratch));
-  cells->block = block_kinds(cells->kind);
+  cells->empty_block = empty_blocks(cells->kind);
   if (!std::all_of(cells->kind.begin(), cells->kind.end(), [](CellKind k) { return k == CellKind::empty; }))
     brick->cells = std::move(cells);
   else

@@ -29,14 +29,13 @@ inline constexpr float largest_coefficient = 1e30f;
 // What is proven about a cell. Empty: extinction, scattering and emission are all exactly 0, and no value is
 // bad. Uniform: every output of the program is one value to rounding.
 enum class CellKind : std::uint8_t { empty, uniform, varying };
-// Of a block of cells: all empty, all varying, or neither.
-enum class BlockKind : std::uint8_t { empty, varying, mixed };
-
 // Bounds of extinction [1/m of world space], over all channels; `spread` is the largest difference in one
 // channel.
 struct CellBounds {
   float minorant = 0, majorant = 0, spread = 0;
   CellKind kind = CellKind::varying;
+
+  bool operator==(const CellBounds&) const = default;
 };
 
 // One thread's scratch for making cells.
@@ -69,7 +68,9 @@ class MajorantGrid {
   static constexpr std::uint32_t block_of(std::uint32_t cell) {
     return (cell >> 8 & 1) << 2 | (cell >> 5 & 1) << 1 | (cell >> 2 & 1);
   }
-  static constexpr std::size_t bytes_per_cell = sizeof(float) * 3 + 1;
+  // Groups of cells are cubes of 1, 2, 4 or 8 cells a side; level is the logarithm.
+  static constexpr int levels = 4;
+  static constexpr std::size_t bytes_per_cell = sizeof(float) * 3 + 3;
 
   // What a brick is as a whole; its cells are there only where the whole says too little.
   struct Brick {
@@ -77,7 +78,7 @@ class MajorantGrid {
     struct Cells {
       std::array<float, brick_cells> minorant, majorant, spread;
       std::array<CellKind, brick_cells> kind;
-      std::array<BlockKind, 8> block;
+      std::array<bool, 8> empty_block;
     };
     std::unique_ptr<Cells> cells;
 
@@ -100,6 +101,18 @@ class MajorantGrid {
     const Brick* known = made_[i].load(std::memory_order_acquire);
     return known ? *known : make(i, {x, y, z}, scratch);
   }
+  // Groups along each axis, x fastest in their order.
+  std::array<std::uint32_t, 3> groups(int level) const {
+    const std::uint32_t a_brick = brick_side >> level;
+    return {bricks_[0] * a_brick, bricks_[1] * a_brick, bricks_[2] * a_brick};
+  }
+  // What is proven of all of a group's cells together.
+  CellKind kind(int level, std::size_t group, BoundsScratch& scratch) const {
+    const std::uint8_t known = kinds_[static_cast<std::size_t>(level)][group].load(std::memory_order_relaxed);
+    return known != unknown ? static_cast<CellKind>(known) : make_kind(level, group, scratch);
+  }
+  // Whether two uniform groups have the same bounds.
+  bool same_values(int level, std::size_t a, std::size_t b, BoundsScratch& scratch) const;
   // The share of boxes of block_side cells, one in the middle of each brick, that are proved empty or
   // uniform.
   double plain_share(BoundsScratch& scratch) const;
@@ -108,6 +121,10 @@ class MajorantGrid {
 
  private:
   const Brick& make(std::size_t index, const std::array<std::uint32_t, 3>& at, BoundsScratch& scratch) const;
+  // The first cell of a group.
+  std::array<std::uint32_t, 3> cell_of(int level, std::size_t group) const;
+  CellKind make_kind(int level, std::size_t group, BoundsScratch& scratch) const;
+  void note_kinds(const std::array<std::uint32_t, 3>& at, const Brick& brick) const;
   std::unique_ptr<Brick> computed(const std::array<std::uint32_t, 3>& at, BoundsScratch& scratch) const;
   void evaluate(std::size_t boxes, BoundsScratch& scratch) const;
   void refine(Brick::Cells& cells, BoundsScratch& scratch) const;
@@ -121,6 +138,9 @@ class MajorantGrid {
   Vec3d cell_size_;
   std::vector<std::uint8_t> coefficients_;  // outputs that are not negative: extinction, scattering, emission
   mutable std::vector<std::atomic<Brick*>> made_;
+  // By level and group; functions of the place, so whoever writes one writes the same.
+  static constexpr std::uint8_t unknown = 0xff;
+  mutable std::array<std::vector<std::atomic<std::uint8_t>>, levels> kinds_;
 };
 
 }  // namespace tyndall::compile

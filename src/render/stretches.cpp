@@ -5,6 +5,7 @@
 
 #include "base/numerics.h"
 #include "compile/grid_walk.h"
+#include "compile/kind_walk.h"
 #include "render/worker.h"
 
 namespace tyndall::render {
@@ -20,12 +21,12 @@ using compile::VolumeInterval;
 constexpr double least_steps = 3;
 
 // Leaves out what is empty, but for gaps too short to save a segment.
-void skip_empty(compile::GridWalk& walk, const VolumeInterval& stay, double step, std::vector<Stretch>& out) {
+void skip_empty(compile::KindWalk& walk, const VolumeInterval& stay, double step, std::vector<Stretch>& out) {
   const std::size_t first = out.size();
-  compile::MajorantSegment s;
+  compile::KindSegment s;
   while (walk.next(s)) {
-    if (s.bounds.kind == CellKind::empty) continue;
-    const bool uniform = s.bounds.kind == CellKind::uniform && s.t1 - s.t0 > 2 * step;
+    if (s.kind == CellKind::empty) continue;
+    const bool uniform = s.kind == CellKind::uniform && s.t1 - s.t0 > 2 * step;
     if (uniform) {
       out.push_back({s.t0, s.t1, stay.volume, infinity});
       continue;
@@ -85,13 +86,15 @@ void find_stretches(const CompiledScene& world, const compile::Ray& ray, compile
       out.push_back({stay.t0, stay.t1, stay.volume, volume.step.metres});
       continue;
     }
-    compile::GridWalk walk(*world.grids[volume.grid], volume.medium_from_render_at(ray.time), ray, stay.t0,
-                           stay.t1, worker.bounds,
-                           automatic ? compile::GridWalk::Detail::bounds : compile::GridWalk::Detail::kinds);
+    const compile::MajorantGrid& grid = *world.grids[volume.grid];
+    const Transform medium_from_render = volume.medium_from_render_at(ray.time);
     if (!automatic) {
+      compile::KindWalk walk(grid, medium_from_render, ray, stay.t0, stay.t1, volume.step.metres,
+                             worker.bounds);
       skip_empty(walk, stay, volume.step.metres, out);
       continue;
     }
+    compile::GridWalk walk(grid, medium_from_render, ray, stay.t0, stay.t1, worker.bounds);
     // Each stay takes its share of the tolerance: (1 + a) (1 + b) - 1 stays below it when ln(1 + a) + ln(1 +
     // b) does.
     const auto together = static_cast<int>(std::count_if(stays.begin(), stays.end(), [&](const auto& i) {
@@ -99,7 +102,8 @@ void find_stretches(const CompiledScene& world, const compile::Ray& ray, compile
     }));
     certify(walk, stay, volume, std::log1p(volume.step.tolerance) / certified, together, worker, out);
   }
-  std::stable_sort(out.begin(), out.end(), [](const Stretch& a, const Stretch& b) { return a.t0 < b.t0; });
+  const auto earlier = [](const Stretch& a, const Stretch& b) { return a.t0 < b.t0; };
+  if (!std::is_sorted(out.begin(), out.end(), earlier)) std::stable_sort(out.begin(), out.end(), earlier);
 }
 
 void whole_stays(const CompiledScene& world, const compile::Ray& ray, compile::RayKind kind, Worker& worker,

@@ -10,6 +10,7 @@
 #include "base/numerics.h"
 #include "compile/compiled_scene.h"
 #include "compile/grid_walk.h"
+#include "compile/kind_walk.h"
 #include "support/scene_builder.h"
 #include "vm/machine.h"
 
@@ -77,15 +78,13 @@ TEST(MajorantGrids, HoldAtEveryPoint) {
   EXPECT_GT(static_cast<double>(proved), 0.8 * static_cast<double>(zero));
 }
 
-TEST(MajorantGrids, WalksCoverTheRayWithoutGapsAndHoldOnIt) {
-  const Transform placed = Transform::translate({0.2, -0.1, 0}) * Transform::rotate({1, 2, 0}, 0.7) *
-                           Transform::scale({1.5, 0.4, -0.8});
-  const Built b = built(cloud, placed);
+// Rays through, beside and along the cells of a volume that is turned, squeezed and mirrored, with their
+// stays.
+template <class Visit>
+void for_rays(const Built& b, Visit&& visit) {
   const CompiledVolume& volume = b.world.volumes[0];
-  BoundsScratch scratch;
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  std::size_t walked = 0;
   for (int i = 0; i < 3000; ++i) {
     const Vec3d towards = volume.render_from_shape.point({uniform(random), uniform(random), uniform(random)});
     const Vec3d from =
@@ -95,32 +94,76 @@ TEST(MajorantGrids, WalksCoverTheRayWithoutGapsAndHoldOnIt) {
     const Ray ray = {from, normalize(direction), i % 4 == 0 ? 2.5 : infinity};
     std::vector<VolumeInterval> stays;
     b.world.volume_intervals(ray, RayKind::scattered, stays);
-    for (const VolumeInterval& stay : stays) {
-      GridWalk walk(b.grid(), volume.medium_from_render, ray, stay.t0, stay.t1, scratch);
-      MajorantSegment s;
+    for (const VolumeInterval& stay : stays) visit(ray, stay);
+  }
+}
+const Transform awry = Transform::translate({0.2, -0.1, 0}) * Transform::rotate({1, 2, 0}, 0.7) *
+                       Transform::scale({1.5, 0.4, -0.8});
+
+TEST(MajorantGrids, WalksCoverTheRayWithoutGapsAndHoldOnIt) {
+  const Built b = built(cloud, awry);
+  const CompiledVolume& volume = b.world.volumes[0];
+  BoundsScratch scratch;
+  std::size_t walked = 0;
+  for_rays(b, [&](const Ray& ray, const VolumeInterval& stay) {
+    GridWalk walk(b.grid(), volume.medium_from_render, ray, stay.t0, stay.t1, scratch);
+    MajorantSegment s;
+    double t = stay.t0;
+    std::vector<Vec3d> points;
+    std::vector<CellBounds> cells;
+    while (walk.next(s)) {
+      ASSERT_EQ(s.t0, t);
+      ASSERT_LT(s.t0, s.t1);
+      t = s.t1;
+      for (const double part : {0.0, 0.31, 0.77, 1.0}) {
+        points.push_back(
+            volume.medium_from_render.point(ray.origin + ray.direction * (s.t0 + part * (s.t1 - s.t0))));
+        cells.push_back(s.bounds);
+      }
+    }
+    ASSERT_EQ(t, stay.t1);
+    const std::vector<float> sigma = extinction(b.world, points);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      ASSERT_LE(cells[k].minorant, sigma[k]) << k;
+      ASSERT_GE(cells[k].majorant, sigma[k]) << k;
+    }
+    walked += points.size();
+  });
+  EXPECT_GT(walked, 20000u);
+}
+
+// A ball of one density in a cloud: all kinds. At steps below and far above a cell's size.
+TEST(MajorantGrids, WalksOverKindsSkipOnlyWhatIsEmpty) {
+  const Built b = built(
+      [](const Point& p) {
+        const Expression near = less(length(Point{p.x - 0.4f, p.y, p.z}), 0.3f);
+        return near * 2.f + (1.f - near) * cloud(p);
+      },
+      awry);
+  const CompiledVolume& volume = b.world.volumes[0];
+  BoundsScratch scratch;
+  std::array<double, 3> length{};
+  for (const double step : {1e-6, 0.05, 0.3, 100.0})
+    for_rays(b, [&](const Ray& ray, const VolumeInterval& stay) {
+      KindWalk walk(b.grid(), volume.medium_from_render, ray, stay.t0, stay.t1, step, scratch);
+      KindSegment s;
       double t = stay.t0;
-      std::vector<Vec3d> points;
-      std::vector<CellBounds> cells;
       while (walk.next(s)) {
         ASSERT_EQ(s.t0, t);
         ASSERT_LT(s.t0, s.t1);
         t = s.t1;
-        for (const double part : {0.0, 0.31, 0.77, 1.0}) {
+        if (step == 1e-6) length[static_cast<std::size_t>(s.kind)] += s.t1 - s.t0;
+        if (s.kind == CellKind::varying) continue;
+        std::vector<Vec3d> points;
+        for (const double part : {0.0, 0.31, 0.77, 1.0})
           points.push_back(
               volume.medium_from_render.point(ray.origin + ray.direction * (s.t0 + part * (s.t1 - s.t0))));
-          cells.push_back(s.bounds);
-        }
+        for (const float sigma : extinction(b.world, points))
+          ASSERT_EQ(sigma, s.kind == CellKind::empty ? 0 : 2);
       }
       ASSERT_EQ(t, stay.t1);
-      const std::vector<float> sigma = extinction(b.world, points);
-      for (std::size_t k = 0; k < points.size(); ++k) {
-        ASSERT_LE(cells[k].minorant, sigma[k]) << i << ' ' << k;
-        ASSERT_GE(cells[k].majorant, sigma[k]) << i << ' ' << k;
-      }
-      walked += points.size();
-    }
-  }
-  EXPECT_GT(walked, 20000u);
+    });
+  for (const double kind : length) EXPECT_GT(kind, 20);
 }
 
 TEST(MajorantGrids, DoNotDependOnWhoComesFirst) {
@@ -211,7 +254,8 @@ TEST(MajorantGrids, AreSharedByEqualVolumesAndBoundedInMemory) {
   EXPECT_EQ(world.grids.size(), 300u);  // the first box is the spheres'
   std::size_t bytes = 0;
   for (const auto& grid : world.grids) {
-    const std::size_t one = std::size_t{grid->brick_count()} * (sizeof(MajorantGrid::Brick::Cells) + 64);
+    const std::size_t one =
+        std::size_t{grid->brick_count()} * (sizeof(MajorantGrid::Brick::Cells) + 64 + 512 + 64 + 8 + 1);
     EXPECT_LE(one, std::size_t{4} << 20);
     bytes += one;
   }
