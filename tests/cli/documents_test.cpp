@@ -132,9 +132,13 @@ TEST_F(Documents, CliPageHasExactlyTheOptionsOfTheProgram) {
   }
 }
 
+// Those that are compared with other renderers' too.
 TEST_F(Documents, EverySceneIsGoodAndSaysItsPurpose) {
   std::size_t scenes = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(root / "scenes")) {
+  std::vector<fs::directory_entry> entries;
+  for (const char* folder : {"scenes", "tests/peers"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) entries.push_back(entry);
+  for (const auto& entry : entries) {
     if (entry.path().extension() != ".tyn") continue;
     ++scenes;
     const std::string text = read_file(entry.path().string());
@@ -149,7 +153,7 @@ TEST_F(Documents, EverySceneIsGoodAndSaysItsPurpose) {
     EXPECT_EQ(outcome.status, 0) << entry.path() << "\n" << outcome.err;
     EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
   }
-  EXPECT_GE(scenes, 13u);
+  EXPECT_GE(scenes, 16u);
 }
 
 }  // namespace
