@@ -29,37 +29,37 @@ constexpr std::array<Matrix, sobol_dimensions> matrices = {
     direction_numbers(3, 2, {1, 1, 1}),
 };
 
-// The same, a byte of the index at a time: entry [d][k][b] is what byte k of value b adds in dimension d.
-using ByteTables = std::array<std::array<std::array<std::uint32_t, 256>, 4>, sobol_dimensions>;
-constexpr ByteTables byte_tables() {
-  ByteTables tables{};
-  for (std::size_t d = 0; d < sobol_dimensions; ++d)
-    for (std::size_t k = 0; k < 4; ++k)
-      for (std::uint32_t b = 0; b < 256; ++b)
-        for (std::uint32_t bit = 0; bit < 8; ++bit)
-          if ((b >> bit) & 1u) tables[d][k][b] ^= matrices[d][8 * k + bit];
-  return tables;
-}
-constexpr ByteTables tables = byte_tables();
-
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {
-  x = (x << 16) | (x >> 16);
-  x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
+  x = __builtin_bswap32(x);
   x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
   x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
   return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-// A nested uniform (Owen) scrambling of the bits of x, most significant first; the hash is Vegdahl's revision
-// of the Laine-Karras permutation.
-constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
-  x = reverse_bits(x);
+// The same for indices and results with their bits in reverse, which saves reversing them: entry [k][b] is
+// what byte k of value b adds, by dimension, a power of two apart.
+using ByteTables = std::array<std::array<std::array<std::uint32_t, 8>, 256>, 4>;
+static_assert(sobol_dimensions <= 8);
+constexpr ByteTables byte_tables() {
+  ByteTables tables{};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::uint32_t b = 0; b < 256; ++b)
+      for (std::size_t d = 0; d < sobol_dimensions; ++d)
+        for (std::uint32_t bit = 0; bit < 8; ++bit)
+          if ((b >> bit) & 1u) tables[k][b][d] ^= reverse_bits(matrices[d][31 - (8 * k + bit)]);
+  return tables;
+}
+alignas(32) constexpr ByteTables tables = byte_tables();
+
+// A nested uniform (Owen) scrambling of bits in reverse, least significant first; the hash is Vegdahl's
+// revision of the Laine-Karras permutation.
+constexpr std::uint32_t owen_scramble_reversed(std::uint32_t x, std::uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
   x *= (seed >> 16) | 1u;
   x ^= x * 0x05526c56u;
   x ^= x * 0x53a22864u;
-  return reverse_bits(x);
+  return x;
 }
 
 }  // namespace
@@ -67,13 +67,17 @@ constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
 SobolPoint sobol_point(std::uint32_t index, std::uint64_t scramble, int dimensions) {
   // Shuffling the index pads decisions against each other; an Owen scrambling of the index keeps every
   // aligned power-of-two block of samples a net.
-  const std::uint32_t shuffled = owen_scramble(index, static_cast<std::uint32_t>(hash_bits(scramble)));
-  SobolPoint point{};
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimensions); ++d) {
-    std::uint32_t bits = 0;
-    for (std::uint32_t k = 0; k < 4; ++k) bits ^= tables[d][k][(shuffled >> (8 * k)) & 255u];
-    point[d] = unit_float(owen_scramble(bits, static_cast<std::uint32_t>(hash_bits(scramble, d + 1))));
+  const std::uint32_t shuffled =
+      owen_scramble_reversed(reverse_bits(index), static_cast<std::uint32_t>(hash_bits(scramble)));
+  std::array<std::uint32_t, 8> bits = tables[0][shuffled & 255u];
+  for (std::uint32_t k = 1; k < 4; ++k) {
+    const std::array<std::uint32_t, 8>& more = tables[k][(shuffled >> (8 * k)) & 255u];
+    for (std::size_t d = 0; d < 8; ++d) bits[d] ^= more[d];
   }
+  SobolPoint point{};
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimensions); ++d)
+    point[d] = unit_float(reverse_bits(
+        owen_scramble_reversed(bits[d], static_cast<std::uint32_t>(hash_bits(scramble, d + 1)))));
   return point;
 }
 
