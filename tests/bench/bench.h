@@ -20,6 +20,11 @@ bool bench_scattering();
 // The estimators of transmittance on known densities: bias and error at each cost.
 void bench_transmittance();
 
+// The tables of docs/sampling.md, and its pictures, which are written where they belong. False when a scene
+// cannot be read or a picture not written.
+bool bench_sampling();
+bool write_sampling_pictures();
+
 // Prints docs/verification.md. False when a line fails.
 bool print_verification();
 

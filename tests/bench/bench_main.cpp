@@ -1,36 +1,52 @@
-// tyndall-bench [vm|ops|bounds|scenes|lights|scattering|transmittance|verify|language] [seconds]: how fast
-// things are, by hand; no test. Exits with 1 when a target is missed.
+// tyndall-bench [NAME] [SECONDS]: how fast things are, by hand; no test. Exits with 1 when a target is
+// missed.
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdlib>
 #include <string_view>
 
 #include "bench.h"
 
+namespace {
+
+struct Benchmark {
+  std::string_view name;
+  bool in_all = false;
+  bool (*run)(double seconds) = nullptr;  // false when a target is missed
+};
+
+using namespace tyndall;
+// `language` is first, while the process has one thread: it measures children.
+constexpr std::array benchmarks{
+    Benchmark{"language", true, [](double) { return bench_language(); }},
+    Benchmark{"vm", true, [](double seconds) { return vm::bench(seconds); }},
+    Benchmark{"ops", false, [](double seconds) { return vm::bench_ops(seconds / 10), true; }},
+    Benchmark{"bounds", true, [](double seconds) { return bench_bounds(seconds), true; }},
+    Benchmark{"lights", true, [](double) { return bench_lights(); }},
+    Benchmark{"scattering", false, [](double) { return bench_scattering(); }},
+    Benchmark{"transmittance", false, [](double) { return bench_transmittance(), true; }},
+    Benchmark{"sampling", false, [](double) { return bench_sampling(); }},
+    Benchmark{"sampling-pictures", false, [](double) { return write_sampling_pictures(); }},
+    Benchmark{"verify", false, [](double) { return print_verification(); }},
+    Benchmark{"scenes", true, [](double seconds) { return bench_scenes(seconds); }},
+};
+
+}  // namespace
+
 int main(int argc, char** argv) {
   const std::string_view what = argc > 1 ? argv[1] : "all";
   const double seconds = argc > 2 ? std::atof(argv[2]) : 0.3;
-  const bool all = what == "all";
-  const bool known = all || what == "vm" || what == "ops" || what == "bounds" || what == "scenes" ||
-                     what == "lights" || what == "scattering" || what == "transmittance" ||
-                     what == "verify" || what == "language";
-  if (!known || !(seconds > 0)) {
-    fmt::print(stderr,
-               "usage: tyndall-bench "
-               "[vm|ops|bounds|scenes|lights|scattering|transmittance|verify|language|all] [seconds a "
-               "row, > 0]\n");
-    return 2;
-  }
-  bool good = true;
-  // First, while the process has one thread: it measures children.
-  if (all || what == "language") good &= tyndall::bench_language();
-  if (all || what == "vm") good &= tyndall::vm::bench(seconds);
-  if (what == "ops") tyndall::vm::bench_ops(seconds / 10);
-  if (all || what == "bounds") tyndall::bench_bounds(seconds);
-  if (all || what == "lights") good &= tyndall::bench_lights();
-  if (what == "scattering") good &= tyndall::bench_scattering();
-  if (what == "transmittance") tyndall::bench_transmittance();
-  if (what == "verify") good = tyndall::print_verification();
-  if (all || what == "scenes") good &= tyndall::bench_scenes(seconds);
-  return good ? 0 : 1;
+  bool known = false, good = true;
+  if (seconds > 0)
+    for (const Benchmark& benchmark : benchmarks)
+      if (what == benchmark.name || (what == "all" && benchmark.in_all)) {
+        known = true;
+        good &= benchmark.run(seconds);
+      }
+  if (known) return good ? 0 : 1;
+  fmt::print(stderr, "usage: tyndall-bench [NAME] [seconds a row, > 0]; NAME is all or one of");
+  for (const Benchmark& benchmark : benchmarks) fmt::print(stderr, " {}", benchmark.name);
+  fmt::print(stderr, "\n");
+  return 2;
 }

@@ -4,7 +4,8 @@
 #include <string>
 
 #include "bench.h"
-#include "support/verification.h"
+#include "support/verification_rows.h"
+#include "verify_methods.h"
 
 namespace tyndall {
 
@@ -38,7 +39,7 @@ bool print_verification() {
     ++rows;
   }
   fmt::print("\n{} lines, {} of which fail.\n", rows, failed);
-  return failed == 0;
+  return print_methods() && failed == 0;
 }
 
 }  // namespace tyndall

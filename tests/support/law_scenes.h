@@ -6,6 +6,7 @@
 #include <string>
 
 #include "support/scene_builder.h"
+#include "support/text.h"
 
 namespace tyndall::support {
 
@@ -61,23 +62,29 @@ inline double white_sphere_square(const WhiteSphere& row) { return row.radiance 
 // downwards meets a black plane. Seen straight from above (R) or from below (T).
 struct Slab {
   float g, albedo, tau;
-  double R, T;
+  double R, T;            // of light from straight above
+  double Rd = 0, Td = 0;  // of light from everywhere above
 };
 inline constexpr Slab slab_rows[] = {
-    {0.00f, 0.50f, 0.5f, 0.07295, 0.67423}, {0.00f, 0.50f, 2, 0.11283, 0.18932},
-    {0.00f, 0.90f, 1, 0.26741, 0.59163},    {0.00f, 0.90f, 5, 0.41254, 0.07665},
-    {0.00f, 0.99f, 2, 0.49749, 0.46570},    {0.00f, 1.00f, 2, 0.51751, 0.48249},
-    {0.00f, 1.00f, 10, 0.85300, 0.14700},   {0.75f, 0.90f, 1, 0.05595, 0.82792},
-    {0.75f, 0.90f, 2, 0.09739, 0.66096},    {0.75f, 0.99f, 10, 0.47257, 0.34001},
-    {0.75f, 1.00f, 5, 0.37188, 0.62812},
+    {0.0f, 0.5f, 0.5f, 0.07295, 0.67423, 0.10768, 0.53499},
+    {0.0f, 0.5f, 2, 0.11283, 0.18932, 0.14509, 0.10706},
+    {0.0f, 0.9f, 1, 0.26741, 0.59163, 0.35271, 0.47475},
+    {0.0f, 0.9f, 5, 0.41254, 0.07665, 0.47634, 0.05342},
+    {0.0f, 0.99f, 2, 0.49749, 0.46570, 0.58800, 0.37335},
+    {0.0f, 1.0f, 2, 0.51751, 0.48249, 0.60994, 0.39006},
+    {0.0f, 1.0f, 10, 0.85300, 0.14700, 0.88325, 0.11675},
+    {0.75f, 0.9f, 1, 0.05595, 0.82792, 0.13836, 0.68855},
+    {0.75f, 0.9f, 2, 0.09739, 0.66096, 0.19109, 0.50182},
+    {0.75f, 0.99f, 10, 0.47257, 0.34001, 0.56788, 0.26270},
+    {0.75f, 1.0f, 5, 0.37188, 0.62812, 0.50168, 0.49832},
 };
 // Half the width [m]. Light through the sides comes within 1/width of level, from depths where little is
 // scattered or through many free paths: below 1e-4 of the picture.
 constexpr double slab_half_width(bool marched) { return marched ? 30 : 100; }
 enum class SlabView { reflection, transmission };
 inline std::string describe(const Slab& row, SlabView view) {
-  return "g " + std::to_string(row.g) + " c " + std::to_string(row.albedo) + " tau " +
-         std::to_string(row.tau) + (view == SlabView::reflection ? " R" : " T");
+  return "g " + short_number(row.g) + " c " + short_number(row.albedo) + " tau " + short_number(row.tau) +
+         (view == SlabView::reflection ? " R" : " T");
 }
 // `profile`: a density whose integral over y in [0, 1] is 1; none for a constant.
 inline SceneBuilder slab(const Slab& row, SlabView view, const Density& profile = {}) {
@@ -111,7 +118,7 @@ inline std::vector<KnownDensity> known_densities() {
   std::vector<KnownDensity> list;
   const auto falloff = [](const Point& p) { return max(1.f - length(p), 0) * 3.f; };
   for (const auto& [b, tau] : {std::pair{0.0, 3.0}, {.25, 2.51784306}, {.5, 1.61035779}, {.75, 0.64213427}})
-    list.push_back({"falloff, b " + std::to_string(b),
+    list.push_back({"falloff, b " + short_number(b),
                     falloff,
                     scene::Sphere{{}, 1},
                     {b, 0, 3},
@@ -123,7 +130,7 @@ inline std::vector<KnownDensity> known_densities() {
     return exp(r * r * -8.f) * 4.f;
   };
   for (const auto& [b, tau] : {std::pair{0.0, 2.50646950}, {.25, 1.52018345}, {.5, 0.33905477}})
-    list.push_back({"gaussian, b " + std::to_string(b),
+    list.push_back({"gaussian, b " + short_number(b),
                     gaussian,
                     scene::Sphere{{}, 1},
                     {b, 0, 3},
