@@ -134,7 +134,7 @@ bool moves(const scene::Scene& scene) {
 
 void add_solids(CompiledScene& world) {
   auto solids =
-      std::make_unique<const Solids>(world.scene, world.origin, world.materials, world.geometry->meshes());
+      std::make_unique<const Solids>(world.scene, world.origin, world.materials, world.geometry->parts());
   for (std::size_t i = 0; i < world.scene.volumes.size(); ++i) {
     const scene::Volume& v = world.scene.volumes[i];
     if (v.priority)

@@ -56,6 +56,7 @@ std::optional<EmitterSurface> surface_of(const scene::Scene& scene, const scene:
                  [](const scene::Cylinder& c) -> Result {
                    return optics::EmitterCylinder{c.from, c.to, c.radius};
                  },
+                 [](const scene::Curves&) -> Result { return std::nullopt; },
                  [&](const scene::Mesh& m) -> Result {
                    const scene::TriangleMesh& mesh = scene.meshes[m.mesh.index];
                    EmitterTriangles out;

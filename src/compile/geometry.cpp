@@ -45,14 +45,15 @@ Geometry::Geometry(const scene::Scene& scene, const Features& features, const Ve
                    std::span<const optics::Light> lights, std::span<const std::uint32_t> glows,
                    std::span<const CompiledVolume> volumes)
     : meshes_(scene.meshes.begin(), scene.meshes.end()),
-      world_(meshes_, features.normals),
+      curves_(scene.strand_sets.begin(), scene.strand_sets.end()),
+      world_(parts(), features.normals),
       volumes_(volumes),
       first_shape_(scene.shapes.data()) {
   if (features.glass)
     for (CompiledMesh& mesh : meshes_) mesh.find_whether_closed();
   prototypes_.reserve(scene.prototypes.size());  // groups point to earlier ones
   for (const scene::Prototype& p : scene.prototypes) {
-    Group group(meshes_, features.normals);
+    Group group(parts(), features.normals);
     group.add(p.shapes, p.moving_shapes);
     group.add(p.instances, p.moving_instances, prototypes_);
     group.finish();
@@ -93,10 +94,10 @@ const std::vector<scene::ShapeInstance>* Geometry::moving_light_surface(const sc
 }
 
 Bounds Geometry::volume_bounds(const CompiledVolume& v) const {
-  if (!v.motion) return placed_bounds(*bounds(v.shape, meshes_), v.render_from_shape);
+  if (!v.motion) return placed_bounds(*bounds(v.shape, parts()), v.render_from_shape);
   const auto& keys = *v.motion;
   return swept_bounds(keys.size(), [&](std::size_t i, std::size_t j) {
-    return placed_bounds(*bounds(keys[i].shape, meshes_),
+    return placed_bounds(*bounds(keys[i].shape, parts()),
                          Transform::translate(-v.origin) * keys[j].world_from_shape);
   });
 }
@@ -139,10 +140,10 @@ void Geometry::volume_intervals(const Ray& ray, RayKind kind, std::vector<Volume
     if (kind == RayKind::camera && !v.visible) return ray.t_max;
     if (v.motion) {
       const CompiledVolume::Place now = v.moved(ray.time);
-      inside(now.shape, meshes_, now.shape_from_render.point(ray.origin),
+      inside(now.shape, parts(), now.shape_from_render.point(ray.origin),
              now.shape_from_render.vector(ray.direction), ray.t_max, stays);
     } else {
-      inside(v.shape, meshes_, v.shape_from_render.point(ray.origin),
+      inside(v.shape, parts(), v.shape_from_render.point(ray.origin),
              v.shape_from_render.vector(ray.direction), ray.t_max, stays);
     }
     for (const Intervald& stay : stays) out.push_back({stay.lo, stay.hi, index});

@@ -24,9 +24,9 @@ class Geometry {
 
   std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind) const;
   bool occluded(const Ray& ray, std::uint32_t target_light) const;
-  std::span<const CompiledMesh> meshes() const { return meshes_; }
-  // Of a shape in its own space, meshes too; nothing when it is infinite.
-  std::optional<Bounds> bounds_of(const scene::Shape& shape) const { return bounds(shape, meshes_); }
+  ShapeParts parts() const { return {meshes_, curves_}; }
+  // Of any shape in its own space; nothing when it is infinite.
+  std::optional<Bounds> bounds_of(const scene::Shape& shape) const { return bounds(shape, parts()); }
   void volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const;
 
   // The box of a volume in render space, over all of its way.
@@ -36,6 +36,7 @@ class Geometry {
   const std::vector<scene::ShapeInstance>* moving_light_surface(const scene::Scene& scene,
                                                                 std::uint32_t light, const Vec3d& origin);
   std::vector<CompiledMesh> meshes_;
+  std::vector<CompiledCurves> curves_;
   std::vector<Group> prototypes_;
   std::vector<scene::ShapeInstance> light_surfaces_;
   std::deque<std::vector<scene::ShapeInstance>> light_surface_keys_;

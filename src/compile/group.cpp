@@ -97,7 +97,7 @@ std::optional<Transform> Group::object_from_group(const PlacedInstance& i, doubl
 
 Bounds Group::box(const PlacedSurface& s) const {
   const auto at = [&](const scene::ShapeInstance& shape, const scene::ShapeInstance& place) {
-    return placed_bounds(*compile::bounds(shape.shape, meshes_),
+    return placed_bounds(*compile::bounds(shape.shape, parts_),
                          group_from_object(place.world_from_object, s.light));
   };
   if (!s.motion) return at(*s.surface, *s.surface);
@@ -116,7 +116,7 @@ Bounds Group::box(const PlacedInstance& i) const {
 void Group::finish() {
   const auto infinite_surfaces = std::stable_partition(
       surfaces_.begin(), surfaces_.end(),
-      [&](const PlacedSurface& s) { return compile::bounds(s.surface->shape, meshes_).has_value(); });
+      [&](const PlacedSurface& s) { return compile::bounds(s.surface->shape, parts_).has_value(); });
   bounded_surfaces_ = static_cast<std::size_t>(infinite_surfaces - surfaces_.begin());
   const auto infinite_instances =
       std::stable_partition(instances_.begin(), instances_.end(),
@@ -164,7 +164,7 @@ std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) co
       if (kind == RayKind::camera && !s.surface->visible) return t_max;
       std::optional<ShapeHit> hit;
       placed(s, ray.time, [&](const scene::Shape& shape, const Transform& object_from_group) {
-        hit = intersect(shape, meshes_, object_from_group.point(ray.origin),
+        hit = intersect(shape, parts_, object_from_group.point(ray.origin),
                         object_from_group.vector(ray.direction), limit);
       });
       if (!hit || (hit->t >= t_max && index > best)) return t_max;
@@ -198,7 +198,7 @@ std::optional<GroupHit> Group::closest_hit(const GroupRay& ray, RayKind kind) co
                  surface_hit.shading_normal,
                  surface_hit.uv,
                  {},
-                 is_sheet(s.surface->shape, meshes_),
+                 is_sheet(s.surface->shape, parts_),
                  s.surface->material,
                  s.light,
                  s.glow,
@@ -228,7 +228,7 @@ bool Group::occluded(const GroupRay& ray, std::uint32_t target_light) const {
       const PlacedSurface& s = surfaces_[index];
       if (s.light != no_index && s.light == target_light) return ray.t_max;
       placed(s, ray.time, [&](const scene::Shape& shape, const Transform& object_from_group) {
-        blocked = intersect(shape, meshes_, object_from_group.point(ray.origin),
+        blocked = intersect(shape, parts_, object_from_group.point(ray.origin),
                             object_from_group.vector(ray.direction), ray.t_max)
                       .has_value();
       });

@@ -11,7 +11,7 @@
 
 #include "compile/bounds_tree.h"
 #include "compile/compiled_scene.h"
-#include "compile/mesh.h"
+#include "compile/parts.h"
 #include "compile/shape_queries.h"
 
 namespace tyndall::compile {
@@ -47,8 +47,8 @@ struct GroupRay {
 
 class Group {
  public:
-  // Keeps the span: the meshes that shapes name. `keeps_axes`: hits tell how normals are mapped.
-  Group(std::span<const CompiledMesh> meshes, bool keeps_axes) : meshes_(meshes), keeps_axes_(keeps_axes) {}
+  // `parts` are what shapes name. `keeps_axes`: hits tell how normals are mapped.
+  Group(const ShapeParts& parts, bool keeps_axes) : parts_(parts), keeps_axes_(keeps_axes) {}
 
   // Adds things; a group is ready for rays after finish(). The scene's elements must stay where they are.
   // `offset` is the group's zero in the space that the things' transforms lead to.
@@ -92,7 +92,7 @@ class Group {
   template <class Test>
   void visit(const GroupRay& ray, Test&& test) const;
 
-  std::span<const CompiledMesh> meshes_;
+  ShapeParts parts_;
   bool keeps_axes_;
   // Each: bounded ones first, in the tree's order; then those that reach to infinity.
   std::vector<PlacedSurface> surfaces_;

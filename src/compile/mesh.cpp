@@ -212,31 +212,4 @@ void CompiledMesh::inside(const Vec3d& origin, const Vec3d& direction, double t_
   }
 }
 
-std::optional<ShapeHit> intersect(const scene::Shape& shape, std::span<const CompiledMesh> meshes,
-                                  const Vec3d& origin, const Vec3d& direction, double t_max) {
-  if (const auto* mesh = std::get_if<scene::Mesh>(&shape))
-    return meshes[mesh->mesh.index].intersect(origin, direction, t_max);
-  return intersect(shape, origin, direction, t_max);
-}
-
-void inside(const scene::Shape& shape, std::span<const CompiledMesh> meshes, const Vec3d& origin,
-            const Vec3d& direction, double t_max, std::vector<Intervald>& out) {
-  out.clear();
-  if (const auto* mesh = std::get_if<scene::Mesh>(&shape))
-    return meshes[mesh->mesh.index].inside(origin, direction, t_max, out);
-  const Intervald stay = inside(shape, origin, direction, t_max);
-  if (!stay.empty()) out.push_back(stay);
-}
-
-std::optional<Bounds> bounds(const scene::Shape& shape, std::span<const CompiledMesh> meshes) {
-  if (const auto* mesh = std::get_if<scene::Mesh>(&shape)) return meshes[mesh->mesh.index].bounds();
-  return bounds(shape);
-}
-
-bool is_sheet(const scene::Shape& shape, std::span<const CompiledMesh> meshes) {
-  if (const auto* mesh = std::get_if<scene::Mesh>(&shape)) return !meshes[mesh->mesh.index].closed();
-  return std::holds_alternative<scene::Plane>(shape) || std::holds_alternative<scene::Quad>(shape) ||
-         std::holds_alternative<scene::Disk>(shape);
-}
-
 }  // namespace tyndall::compile

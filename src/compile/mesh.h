@@ -5,7 +5,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "compile/bounds_tree.h"
@@ -35,14 +34,5 @@ class CompiledMesh {
   std::optional<BoundsTree> tree_;
   bool closed_ = true;
 };
-
-// The queries of shape_queries.h, for meshes too.
-std::optional<ShapeHit> intersect(const scene::Shape& shape, std::span<const CompiledMesh> meshes,
-                                  const Vec3d& origin, const Vec3d& direction, double t_max);
-void inside(const scene::Shape& shape, std::span<const CompiledMesh> meshes, const Vec3d& origin,
-            const Vec3d& direction, double t_max, std::vector<Intervald>& out);
-std::optional<Bounds> bounds(const scene::Shape& shape, std::span<const CompiledMesh> meshes);
-// Whether the shape has no inside.
-bool is_sheet(const scene::Shape& shape, std::span<const CompiledMesh> meshes);
 
 }  // namespace tyndall::compile

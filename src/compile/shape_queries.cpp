@@ -174,6 +174,8 @@ std::optional<ShapeHit> hit(const scene::Cylinder& c, const Vec3d& origin, const
 // Meshes are asked with their trees: see mesh.h.
 std::optional<ShapeHit> hit(const scene::Mesh&, const Vec3d&, const Vec3d&, double) { return std::nullopt; }
 Intervald stay(const scene::Mesh&, const Vec3d&, const Vec3d&) { return {}; }
+std::optional<ShapeHit> hit(const scene::Curves&, const Vec3d&, const Vec3d&, double) { return std::nullopt; }
+Intervald stay(const scene::Curves&, const Vec3d&, const Vec3d&) { return {}; }
 
 Intervald stay(const scene::Sphere& s, const Vec3d& origin, const Vec3d& direction) {
   return crossings(s, origin, direction);
@@ -217,6 +219,7 @@ std::optional<Bounds> bounds(const scene::Shape& shape) {
                                },
                                [](const scene::Plane&) -> std::optional<Bounds> { return std::nullopt; },
                                [](const scene::Mesh&) -> std::optional<Bounds> { return std::nullopt; },
+                               [](const scene::Curves&) -> std::optional<Bounds> { return std::nullopt; },
                                [](const scene::Quad& q) -> std::optional<Bounds> {
                                  const Vec3d extent{std::abs(q.u.x) + std::abs(q.v.x),
                                                     std::abs(q.u.y) + std::abs(q.v.y),

@@ -1,5 +1,5 @@
-// Rays against analytic shapes (meshes: mesh.h), in double and in the shape's own space. Directions need not
-// have unit length: t is the caller's.
+// Rays against analytic shapes (meshes and curves: parts.h), in double and in the shape's own space.
+// Directions need not have unit length: t is the caller's.
 #pragma once
 
 #include <optional>

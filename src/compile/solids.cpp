@@ -8,15 +8,15 @@
 namespace tyndall::compile {
 
 Solids::Solids(const scene::Scene& scene, const Vec3d& origin, std::span<const CompiledMaterial> materials,
-               std::span<const CompiledMesh> meshes)
-    : meshes_(meshes), origin_(origin) {
+               const ShapeParts& parts)
+    : parts_(parts), origin_(origin) {
   auto moving = scene.motion.shapes.begin();
   const Transform render_from_world = Transform::translate(-origin);
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     const scene::ShapeInstance& s = scene.shapes[i];
     const std::vector<scene::ShapeInstance>* keys = nullptr;
     if (moving != scene.motion.shapes.end() && moving->index == i) keys = &(moving++)->keys;
-    if (!materials[s.material.index].transmits || is_sheet(s.shape, meshes)) continue;
+    if (!materials[s.material.index].transmits || is_sheet(s.shape, parts)) continue;
     const auto inverse = (render_from_world * s.world_from_object).inverse();
     CHECK(inverse.has_value());  // resolve refuses transforms that flatten space
     list_.push_back({&s.shape,
@@ -43,7 +43,7 @@ std::optional<Solids::Holder> Solids::at(const Vec3d& position, double time, std
     if (solid.rank.order == static_cast<std::int64_t>(except) || (highest && solid.rank < highest->rank))
       continue;
     placed(solid, time, [&](const scene::Shape& shape, const Transform& shape_from_render) {
-      inside(shape, meshes_, shape_from_render.point(position), {0, 0, 1}, infinity, stays);
+      inside(shape, parts_, shape_from_render.point(position), {0, 0, 1}, infinity, stays);
     });
     // Clipped to [0, ∞): a stay that holds the point begins there.
     if (!stays.empty() && stays.front().lo == 0) highest = {solid.rank, solid.ior};
@@ -61,7 +61,7 @@ void Solids::cut(const Ray& ray, std::span<const CompiledVolume> volumes,
   for (const Solid& solid : list_) {
     stays.clear();
     placed(solid, ray.time, [&](const scene::Shape& shape, const Transform& shape_from_render) {
-      inside(shape, meshes_, shape_from_render.point(ray.origin), shape_from_render.vector(ray.direction),
+      inside(shape, parts_, shape_from_render.point(ray.origin), shape_from_render.vector(ray.direction),
              ray.t_max, stays);
     });
     for (const Intervald& stay : stays) {

@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "compile/compiled_scene.h"
-#include "compile/mesh.h"
+#include "compile/parts.h"
 
 namespace tyndall::compile {
 
 class Solids {
  public:
   Solids(const scene::Scene& scene, const Vec3d& origin, std::span<const CompiledMaterial> materials,
-         std::span<const CompiledMesh> meshes);
+         const ShapeParts& parts);
   std::size_t count() const { return list_.size(); }
 
   // The highest of the bodies at a point of render space, other than the shape `except`.
@@ -45,7 +45,7 @@ class Solids {
   template <class Visit>
   void placed(const Solid& solid, double time, Visit&& visit) const;
   std::vector<Solid> list_;
-  std::span<const CompiledMesh> meshes_;
+  ShapeParts parts_;
   Vec3d origin_;
 };
 

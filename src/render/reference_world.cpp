@@ -142,6 +142,12 @@ std::optional<LocalHit> hit(const scene::Disk& disk, const LocalRay& ray, double
   return found;
 }
 
+// Scenes for the reference have no curves.
+std::optional<LocalHit> hit(const scene::Curves&, const LocalRay&, double, double) {
+  CHECK(false);
+  return {};
+}
+
 // Every triangle, by Cramer's rule (Möller and Trumbore 1997).
 std::optional<LocalHit> hit(const scene::TriangleMesh& mesh, const LocalRay& ray, double t_min,
                             double t_max) {

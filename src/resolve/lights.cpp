@@ -114,6 +114,9 @@ void run_mesh_light(Run& run, const Site& site, const syntax::ThingItem& thing, 
   if (!reader.ok() || !in) return;
   if (std::holds_alternative<scene::Plane>(in->shape))
     return reader.error(given.in.span, "a plane has no end: its light would be endless", "write a quad");
+  if (std::holds_alternative<scene::Curves>(in->shape))
+    return reader.error(given.in.span, "curves cannot be a light",
+                        "give `curves` a material with `emission`: then they are seen to glow");
   ObjectLight out{light, {}, header(thing), row.name};
   if (const auto* s = std::get_if<scene::Sphere>(&in->shape))
     out.light = optics::SphereLight{s->center, s->radius, light.power, light.radiance, light.visible};

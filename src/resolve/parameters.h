@@ -81,6 +81,35 @@ struct MeshParameters {
   }
 };
 
+// The points of strands: a list for each, whatever was written.
+struct StrandPoints {
+  std::vector<std::vector<Vec3d>> strands;
+};
+// One radius, or a list.
+struct StrandRadii {
+  std::vector<double> values;
+};
+
+// Curves as written; they become a scene::StrandSet.
+struct CurvesParameters {
+  static constexpr std::string_view keyword = scene::Curves::keyword;
+  StrandPoints points;
+  StrandRadii radius;
+  template <class F>
+  static void fields(F&& field) {
+    using P = CurvesParameters;
+    field(&P::points,
+          FieldInfo{"points",
+                    "a list of the points that a strand goes through, from its root: [(0, 0, 0), …]; or "
+                    "a list of such lists [m]",
+                    Quantity::position, required});
+    field(&P::radius,
+          FieldInfo{"radius",
+                    "of the tube, >= 0 [m]; or a list: [root, tip], or one for each point of a strand",
+                    Quantity::length, required});
+  }
+};
+
 // What a mesh light takes besides its own fields.
 struct MeshLightParameters {
   static constexpr std::string_view keyword = optics::MeshLight::keyword;

@@ -295,22 +295,71 @@ void Reader::read_value(const FieldInfo& info, const Given& given, eval::RangeVa
   if (!value.is_error()) to = std::get<eval::RangeValue>(*value.heavy);
 }
 
+eval::Value Reader::element(eval::Type type, const FieldInfo& info, const Given& given,
+                            const eval::Value& value) {
+  return converted(type, info, given, value, fmt::format("an element of '{}'", info.name));
+}
+
+eval::Value Reader::converted(eval::Type type, const FieldInfo& info, const Given& given,
+                              const eval::Value& value, std::string_view what) {
+  eval::Value out = evaluator_.convert(type, value, value_span(given), what, false);
+  if (out.is_error()) {
+    ok_ = false;
+  } else if (!fits(info.quantity, value.unit)) {
+    error_unit(info, value, value_span(given));
+    out = {};
+  }
+  return out;
+}
+
 std::vector<eval::Value> Reader::read_list(eval::Type type, const FieldInfo& info, const Given& given) {
   const eval::Value list = evaluate(eval::Type::list, info, given);
   std::vector<eval::Value> elements;
   if (list.is_error()) return elements;
-  const std::string what = fmt::format("an element of '{}'", info.name);
-  for (const eval::Value& element : list.as_list()) {
-    elements.push_back(evaluator_.convert(type, element, value_span(given), what, false));
-    if (elements.back().is_error()) {
-      ok_ = false;
-      return {};
-    }
-    if (fits(info.quantity, element.unit)) continue;
-    error_unit(info, element, value_span(given));
-    return {};
+  for (const eval::Value& value : list.as_list()) {
+    elements.push_back(element(type, info, given, value));
+    if (elements.back().is_error()) return {};
   }
   return elements;
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, StrandPoints& to) {
+  const eval::Value list = evaluate(eval::Type::list, info, given);
+  if (list.is_error()) return;
+  const bool many = !list.as_list().empty() && list.as_list().front().type == eval::Type::list;
+  if (!many) to.strands.emplace_back();
+  for (const eval::Value& value : list.as_list()) {
+    if (!many) {
+      const eval::Value point = element(eval::Type::vec, info, given, value);
+      if (point.is_error()) return;
+      to.strands.back().push_back(point.as_vec());
+      continue;
+    }
+    const eval::Value strand = element(eval::Type::list, info, given, value);
+    if (strand.is_error()) return;
+    to.strands.emplace_back();
+    for (const eval::Value& inner : strand.as_list()) {
+      const eval::Value point = element(eval::Type::vec, info, given, inner);
+      if (point.is_error()) return;
+      to.strands.back().push_back(point.as_vec());
+    }
+  }
+}
+
+void Reader::read_value(const FieldInfo& info, const Given& given, StrandRadii& to) {
+  const eval::Value written = evaluator_.evaluate(*site_.tree, given.item->value, *site_.scope);
+  ok_ = ok_ && !written.is_error();
+  if (written.is_error()) return;
+  if (written.type != eval::Type::list) {
+    const eval::Value number = converted(eval::Type::number, info, given, written, info.name);
+    if (!number.is_error()) to.values.push_back(number.as_number());
+    return;
+  }
+  for (const eval::Value& value : written.as_list()) {
+    const eval::Value number = element(eval::Type::number, info, given, value);
+    if (number.is_error()) return;
+    to.values.push_back(number.as_number());
+  }
 }
 
 void Reader::read_value(const FieldInfo& info, const Given& given, std::vector<Vec3d>& to) {

@@ -39,11 +39,11 @@ struct SchemasOf {
   std::tuple<Schema<T>...> all;
 };
 using Schemas =
-    SchemasOf<RenderParameters, AnimationParameters, MeshParameters, MeshLightParameters, ShapePlacement,
-              Placement, VolumeParameters, GroupParameters, PlaceParameters, scene::PerspectiveCamera,
-              scene::OrthographicCamera, scene::SphericalCamera, scene::Sphere, scene::Box, scene::Plane,
-              scene::Quad, scene::Disk, scene::Cylinder, optics::PointLight, optics::SpotLight,
-              optics::SphereLight, optics::QuadLight, optics::DiskLight, optics::MeshLight,
+    SchemasOf<RenderParameters, AnimationParameters, MeshParameters, CurvesParameters, MeshLightParameters,
+              ShapePlacement, Placement, VolumeParameters, GroupParameters, PlaceParameters,
+              scene::PerspectiveCamera, scene::OrthographicCamera, scene::SphericalCamera, scene::Sphere,
+              scene::Box, scene::Plane, scene::Quad, scene::Disk, scene::Cylinder, optics::PointLight,
+              optics::SpotLight, optics::SphereLight, optics::QuadLight, optics::DiskLight, optics::MeshLight,
               optics::DistantLight, optics::EnvironmentLight>;
 
 // As in messages: "a length".
@@ -125,6 +125,12 @@ class Reader {
   void read_value(const FieldInfo& info, const Given& given, Thing& to);
   void read_value(const FieldInfo& info, const Given& given, std::vector<Vec3d>& to);
   void read_value(const FieldInfo& info, const Given& given, std::vector<Pair<double>>& to);
+  void read_value(const FieldInfo& info, const Given& given, StrandPoints& to);
+  void read_value(const FieldInfo& info, const Given& given, StrandRadii& to);
+  // A value, or an element of a list, as `type` with the parameter's unit; an error after reporting one.
+  eval::Value converted(eval::Type type, const FieldInfo& info, const Given& given, const eval::Value& value,
+                        std::string_view what);
+  eval::Value element(eval::Type type, const FieldInfo& info, const Given& given, const eval::Value& value);
   // The elements of a list, each of `type`; none after an error.
   std::vector<eval::Value> read_list(eval::Type type, const FieldInfo& info, const Given& given);
   template <class T>

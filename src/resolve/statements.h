@@ -63,6 +63,7 @@ void run_light(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 void run_shape(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 // Reads a mesh into the scene.
 scene::Shape read_mesh(Run& run, Reader& reader);
+scene::Shape read_curves(Run& run, Reader& reader);
 void run_volume(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 void run_group(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 

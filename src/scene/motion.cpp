@@ -60,6 +60,7 @@ class Numbers {
     std::visit([&](auto& alternative) { of(alternative); }, v);
   }
   void of(Mesh&) {}
+  void of(Curves&) {}
   void of(bool&) {}
   template <class T>
   void of(T& thing) requires requires {

@@ -63,6 +63,7 @@ class Printer {
     put(t.t);
   }
   void put(const MeshId& m) { put(m.index); }
+  void put(const StrandSetId& s) { put(s.index); }
   void put(const std::vector<double>& v) { fmt::format_to(out(), "{}", fmt::join(v, " ")); }
   void put(const Pair<double>& v) { fmt::format_to(out(), "({}, {})", v.x, v.y); }
   void put(const std::array<std::uint32_t, 3>& v) { fmt::format_to(out(), "({}, {}, {})", v[0], v[1], v[2]); }
@@ -235,6 +236,13 @@ std::string print(const Scene& scene) {
     for (const auto& triangle : scene.meshes[i].triangles) p.item("triangle", triangle);
     for (const Vec3d& normal : scene.meshes[i].normals) p.item("normal", normal);
     for (const Pair<double>& uv : scene.meshes[i].uvs) p.item("uv", uv);
+  }
+  for (std::size_t i = 0; i < scene.strand_sets.size(); ++i) {
+    p.count("strands", i);
+    p.line("");
+    for (const std::uint32_t first : scene.strand_sets[i].begin) p.item("begin", first);
+    for (const Vec3d& point : scene.strand_sets[i].points) p.item("point", point);
+    for (const double radius : scene.strand_sets[i].radii) p.item("radius", radius);
   }
   for (std::size_t i = 0; i < scene.prototypes.size(); ++i) {
     p.count("prototype", i);

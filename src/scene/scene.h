@@ -194,7 +194,27 @@ struct Mesh {
   }
 };
 
-using Shape = std::variant<Sphere, Box, Plane, Quad, Disk, Cylinder, Mesh>;
+// Tubes along smooth curves: hair, grass, threads. Each strand goes through its points, by Catmull and Rom's
+// spline; its radius goes from point to point along with it.
+struct StrandSet {
+  std::vector<Vec3d> points;         // of all strands, one strand after the other
+  std::vector<double> radii;         // one a point, >= 0
+  std::vector<std::uint32_t> begin;  // of each strand, and the end of the last
+  std::size_t strands() const { return begin.empty() ? 0 : begin.size() - 1; }
+};
+using StrandSetId = Id<StrandSet>;
+
+// One of the scene's strand sets, as a shape.
+struct Curves {
+  static constexpr std::string_view keyword = "curves";
+  StrandSetId strands;
+  template <class F>
+  static void fields(F&& field) {
+    field(&Curves::strands, FieldInfo{"strands", "the number of the strand set"});
+  }
+};
+
+using Shape = std::variant<Sphere, Box, Plane, Quad, Disk, Cylinder, Mesh, Curves>;
 
 // ------------------------------------------------------------------------------------------------- materials
 
@@ -298,6 +318,7 @@ struct Scene {
   std::vector<Medium> media;
   std::vector<Material> materials;
   std::vector<TriangleMesh> meshes;
+  std::vector<StrandSet> strand_sets;
   std::vector<ShapeInstance> shapes;
   std::vector<Volume> volumes;
   std::vector<LightInstance> lights;  // those of placed objects too

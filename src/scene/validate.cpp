@@ -189,6 +189,22 @@ Problems validate(const Cylinder& c) {
   return problems;
 }
 
+Problems validate(const StrandSet& s) {
+  Problems problems;
+  for (const double radius : s.radii) {
+    if (radius >= 0 && std::isfinite(radius)) continue;
+    problems.push_back({"radius", fmt::format("'radius' must be 0 or more, found {}", radius)});
+    break;
+  }
+  for (std::size_t strand = 0; strand < s.strands() && problems.empty(); ++strand) {
+    const auto first = s.points.begin() + s.begin[strand], last = s.points.begin() + s.begin[strand + 1];
+    if (std::all_of(first, last, [&](const Vec3d& p) { return p == *first; }))
+      problems.push_back(
+          {"points", fmt::format("the points of strand {} are all at the same place", strand)});
+  }
+  return problems;
+}
+
 Problems validate(const TriangleMesh& m) {
   Problems problems;
   if (m.triangles.empty()) problems.push_back({"triangles", "'triangles' holds none"});

@@ -34,6 +34,7 @@ Problems validate(const Quad& quad);
 Problems validate(const Disk& disk);
 Problems validate(const Cylinder& cylinder);
 Problems validate(const TriangleMesh& mesh);
+Problems validate(const StrandSet& strands);
 Problems validate(const optics::PointLight& light);
 Problems validate(const optics::SpotLight& light);
 Problems validate(const optics::SphereLight& light);

@@ -68,6 +68,11 @@ struct AsWritten<scene::Mesh> {
   using Type = resolve::MeshParameters;
 };
 
+template <>
+struct AsWritten<scene::Curves> {
+  using Type = resolve::CurvesParameters;
+};
+
 class Tables {
  public:
   template <class T, class... Others>

@@ -2,6 +2,8 @@
 // Significance 0.0012 for each comparison, seeds 1 to 16 (support/measure.h).
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "support/measure.h"
 #include "support/scene_builder.h"
 
@@ -154,6 +156,48 @@ TEST(SurfaceScenes, WhiteGauzeAroundFog) {
       .surface(scene::Sphere{{}, 0.8}, gauze)
       .surface(scene::Quad{{0, 0, 0}, {0.7, 0.2, 0}, {0, 0.5, 0.3}}, gauze);
   expect_truth(measure(builder.scene).whole(), 1, 1e-6, 0.01, "gauze");
+}
+
+// Strands that stand about at random within a ball of radius 0.8, of half their opacity.
+SceneBuilder& add_hair(SceneBuilder& builder, const Rgb& reflectance) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-0.45, 0.45);
+  const auto point = [&] { return Vec3d{uniform(random), uniform(random), uniform(random)}; };
+  scene::StrandSet hair{{}, {}, {0}};
+  for (int strand = 0; strand < 60; ++strand) {
+    for (int i = 0; i < 4; ++i) hair.points.push_back(point()), hair.radii.push_back(0.02);
+    hair.begin.push_back(static_cast<std::uint32_t>(hair.points.size()));
+  }
+  builder.scene.strand_sets.push_back(std::move(hair));
+  scene::ConstantSurface material;
+  material.parameters.base_color = reflectance;
+  material.parameters.specular = 0;
+  material.opacity = 0.5f;
+  return builder.surface(scene::Curves{scene::StrandSetId(std::size_t{0})}, material);
+}
+
+// White hair of opacity 1/2 in fog in a white room: nothing absorbs, all is white.
+TEST(SurfaceScenes, WhiteHairInFog) {
+  SceneBuilder builder = white_room();
+  builder.volume(scene::Sphere{{}, 1}, builder.constant(white_medium()));
+  expect_truth(measure(add_hair(builder, Rgb(1)).scene).whole(), 1, 1e-6, 0.01, "white hair");
+}
+
+// Hair that lets half of the light through, in smoke beside a lamp: the march, in whose distance pdf what is
+// let through takes part, against null collisions, which stop at each hair or go on by chance.
+TEST(SurfaceScenes, HairInSmokeIsTheSameByEveryMethod) {
+  SceneBuilder builder;
+  builder.image(12, 12, 32)
+      .bounces(4)
+      .perspective({0, 0, 4}, {0, 0, 0}, 28)
+      .sphere_light({1, 1.2, 0.8}, 0.2, Rgb(60));
+  builder.volume(scene::Box{{-2, -2, -2}, {2, 2, 2}}, builder.constant({Rgb(0.4f), Rgb(0.9f), {}, hg(0.4f)}));
+  add_hair(builder, Rgb(0.7f, 0.4f, 0.2f));
+  render::RenderOptions tracking;
+  tracking.method = render::Method::tracking;
+  tracking.transmittance = render::Transmittance::series;
+  const auto marched = measure(builder.scene).whole(), tracked = measure(builder.scene, tracking).whole();
+  expect_same(marched, tracked, 0, 0.03, "hair in smoke");
 }
 
 }  // namespace

@@ -1,0 +1,56 @@
+// Rays against tubes along splines, in double and in the curves' space. A strand is cut into straight pieces
+// of cones, as many as its bends ask for; each piece ends at the planes that halve its bends, so that a line
+// through a strand meets one surface where it enters and none twice. Ends are round. Only what is met from
+// outside is met: light that is let through a hair meets it once.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compile/bounds_tree.h"
+#include "compile/shape_queries.h"
+
+namespace tyndall::compile {
+
+class CompiledCurves {
+ public:
+  explicit CompiledCurves(const scene::StrandSet& strands);
+
+  // The nearest entry with t in (0, t_max). uv: the strand's place in the list, and the part of its points
+  // from root to tip, each in [0, 1].
+  std::optional<ShapeHit> intersect(const Vec3d& origin, const Vec3d& direction, double t_max) const;
+  const Bounds& bounds() const { return bounds_; }
+  std::size_t pieces() const { return pieces_.size(); }
+
+ private:
+  struct Node {
+    Vec3d position;
+    double radius = 0;
+    float along = 0;  // part of its strand's points, 0 at the root
+    std::uint32_t strand = 0;
+  };
+  struct Entry {
+    double t = 0;
+    Vec3d position, normal, shading_normal;  // normals of any length but zero
+    float along = 0;
+  };
+  void add_strand(const scene::StrandSet& strands, std::uint32_t strand);
+  // Which way the plane between two pieces faces at a node: the mean of their directions.
+  Vec3d joint(std::size_t node) const;
+  bool begins(std::size_t node) const { return node == 0 || nodes_[node - 1].strand != nodes_[node].strand; }
+  bool ends(std::size_t node) const {
+    return node + 1 == nodes_.size() || nodes_[node + 1].strand != nodes_[node].strand;
+  }
+  // The first entry of a piece, nodes i and i + 1.
+  std::optional<Entry> enter(std::uint32_t i, const Vec3d& origin, const Vec3d& direction,
+                             double t_max) const;
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> pieces_;  // the first node of each
+  std::uint32_t strands_ = 0;
+  Bounds bounds_;
+  std::optional<BoundsTree> tree_;
+};
+
+}  // namespace tyndall::compile

@@ -1,0 +1,36 @@
+#include "compile/parts.h"
+
+namespace tyndall::compile {
+
+std::optional<ShapeHit> intersect(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin,
+                                  const Vec3d& direction, double t_max) {
+  if (const auto* mesh = std::get_if<scene::Mesh>(&shape))
+    return parts.meshes[mesh->mesh.index].intersect(origin, direction, t_max);
+  if (const auto* curves = std::get_if<scene::Curves>(&shape))
+    return parts.curves[curves->strands.index].intersect(origin, direction, t_max);
+  return intersect(shape, origin, direction, t_max);
+}
+
+void inside(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin, const Vec3d& direction,
+            double t_max, std::vector<Intervald>& out) {
+  out.clear();
+  if (const auto* mesh = std::get_if<scene::Mesh>(&shape))
+    return parts.meshes[mesh->mesh.index].inside(origin, direction, t_max, out);
+  const Intervald stay = inside(shape, origin, direction, t_max);
+  if (!stay.empty()) out.push_back(stay);
+}
+
+std::optional<Bounds> bounds(const scene::Shape& shape, const ShapeParts& parts) {
+  if (const auto* mesh = std::get_if<scene::Mesh>(&shape)) return parts.meshes[mesh->mesh.index].bounds();
+  if (const auto* curves = std::get_if<scene::Curves>(&shape))
+    return parts.curves[curves->strands.index].bounds();
+  return bounds(shape);
+}
+
+bool is_sheet(const scene::Shape& shape, const ShapeParts& parts) {
+  if (const auto* mesh = std::get_if<scene::Mesh>(&shape)) return !parts.meshes[mesh->mesh.index].closed();
+  return std::holds_alternative<scene::Plane>(shape) || std::holds_alternative<scene::Quad>(shape) ||
+         std::holds_alternative<scene::Disk>(shape) || std::holds_alternative<scene::Curves>(shape);
+}
+
+}  // namespace tyndall::compile

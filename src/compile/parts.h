@@ -1,0 +1,28 @@
+// What shapes name by a number, ready for rays.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compile/curves.h"
+#include "compile/mesh.h"
+#include "compile/shape_queries.h"
+
+namespace tyndall::compile {
+
+struct ShapeParts {
+  std::span<const CompiledMesh> meshes{};
+  std::span<const CompiledCurves> curves{};
+};
+
+// The queries of shape_queries.h, for all shapes.
+std::optional<ShapeHit> intersect(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin,
+                                  const Vec3d& direction, double t_max);
+void inside(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin, const Vec3d& direction,
+            double t_max, std::vector<Intervald>& out);
+std::optional<Bounds> bounds(const scene::Shape& shape, const ShapeParts& parts);
+// Whether the shape has no inside.
+bool is_sheet(const scene::Shape& shape, const ShapeParts& parts);
+
+}  // namespace tyndall::compile

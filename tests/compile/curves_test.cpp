@@ -1,0 +1,154 @@
+// Rays against tubes along splines: held against spheres strung densely along the same splines.
+#include "compile/curves.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "base/numerics.h"
+
+namespace tyndall::compile {
+namespace {
+
+// How far pieces may lie from the spline, in radii: twice what the cutting allows, as the radius goes
+// straight too.
+constexpr double off = 0.12;
+
+scene::StrandSet strand(std::vector<Vec3d> points, std::vector<double> radii) {
+  const auto count = static_cast<std::uint32_t>(points.size());
+  return {std::move(points), std::move(radii), {0, count}};
+}
+
+// Spheres along a strand, by the textbook's form of the spline.
+struct Beads {
+  std::vector<Vec3d> centers;
+  std::vector<double> radii;
+
+  explicit Beads(const scene::StrandSet& s) {
+    const auto last = static_cast<int>(s.points.size()) - 1;
+    const auto p = [&](int i) {
+      const auto at = [&](int k) { return s.points[static_cast<std::size_t>(k)]; };
+      return i < 0 ? at(0) * 2.0 - at(1) : i > last ? at(last) * 2.0 - at(last - 1) : at(i);
+    };
+    for (int i = 0; i < last; ++i)
+      for (int k = 0; k <= 1000; ++k) {
+        const double u = k / 1000.0, u2 = u * u, u3 = u2 * u;
+        centers.push_back((p(i - 1) * (-u + 2 * u2 - u3) + p(i) * (2 - 5 * u2 + 3 * u3) +
+                           p(i + 1) * (u + 4 * u2 - 3 * u3) + p(i + 2) * (u3 - u2)) *
+                          0.5);
+        radii.push_back(s.radii[static_cast<std::size_t>(i)] * (1 - u) +
+                        s.radii[static_cast<std::size_t>(i) + 1] * u);
+      }
+  }
+  // The distance to the tube, below 0 inside, and the radius nearby.
+  std::pair<double, double> distance(const Vec3d& x) const {
+    double least = infinity, radius = 0;
+    for (std::size_t i = 0; i < centers.size(); ++i) {
+      const double d = length(x - centers[i]) - radii[i];
+      if (d < least) least = d, radius = radii[i];
+    }
+    return {least, radius};
+  }
+};
+
+scene::StrandSet wavy() {
+  return strand({{0, 0, 0}, {0.3, 0.5, 0.1}, {-0.2, 0.9, 0.3}, {0.1, 1.4, -0.2}, {0.6, 1.5, 0}},
+                {0.05, 0.06, 0.04, 0.03, 0.01});
+}
+
+void expect_like_beads(const scene::StrandSet& s, const Vec3d& offset, double scale) {
+  scene::StrandSet placed = s;
+  for (Vec3d& p : placed.points) p = offset + p * scale;
+  for (double& r : placed.radii) r *= scale;
+  const CompiledCurves curves(placed);
+  const Beads beads(s);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  // What the offset's own digits leave, in the strand's space.
+  const double digits = 1e-15 * length(offset) / scale;
+  int met = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d towards = {0.2 + 0.6 * uniform(random), 0.75 + 0.9 * uniform(random), 0.4 * uniform(random)};
+    const Vec3d direction = normalize(Vec3d{uniform(random), uniform(random), uniform(random)});
+    const Vec3d origin = towards - direction * 3.0;
+    // Walks up to the tube.
+    double t = 0, deepest = infinity;
+    for (int step = 0; step < 400 && t < 6; ++step) {
+      const auto [d, r] = beads.distance(origin + direction * t);
+      deepest = std::min(deepest, d / r);
+      if (d < -0.5 * r) break;
+      t += std::max(d, 0.05 * r);
+    }
+    const auto hit = curves.intersect(offset + origin * scale, direction * scale, 6);
+    EXPECT_TRUE(hit || deepest >= -2 * off) << i;
+    EXPECT_TRUE(!hit || deepest <= 2 * off) << i;
+    if (!hit) continue;
+    ++met;
+    const Vec3d at = origin + direction * hit->t;
+    const auto [d, r] = beads.distance(at);
+    EXPECT_LE(std::abs(d), off * r + digits) << i;
+    EXPECT_LE(length((hit->position - offset) / scale - at), 1e-9 + 10 * digits) << i;
+    EXPECT_LT(dot(hit->normal, direction), 0);
+    EXPECT_GE(hit->uv.y, 0);
+    EXPECT_LE(hit->uv.y, 1);
+  }
+  EXPECT_GT(met, 100);
+}
+
+TEST(Curves, AreTubesAlongTheirSplines) { expect_like_beads(wavy(), {}, 1); }
+TEST(Curves, MayBeTiny) { expect_like_beads(wavy(), {}, 1e-6); }
+TEST(Curves, MayBeFarAway) { expect_like_beads(wavy(), {1e7, -1e7, 3e6}, 1); }
+
+TEST(Curves, StraightOnesAreCylinders) {
+  const CompiledCurves curves(strand({{0, 0, 0}, {0, 0, 1}, {0, 0, 3}, {0, 0, 4}}, {0.2, 0.2, 0.2, 0.2}));
+  EXPECT_EQ(curves.pieces(), 3u);
+  const scene::Shape cylinder = scene::Cylinder{{0, 0, 0}, {0, 0, 4}, 0.2};
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int met = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3d towards = {0.3 * uniform(random), 0.3 * uniform(random), 2 + uniform(random)};
+    const Vec3d origin = {3 * uniform(random), 3, 2 + 0.5 * uniform(random)};
+    const Vec3d direction = towards - origin;
+    const auto one = curves.intersect(origin, direction, 10),
+               other = intersect(cylinder, origin, direction, 10);
+    ASSERT_EQ(one.has_value(), other.has_value()) << i;
+    if (!one) continue;
+    ++met;
+    ASSERT_NEAR(one->t, other->t, 1e-12);
+    ASSERT_NEAR(dot(normalize(one->normal), normalize(other->normal)), 1, 1e-9);
+  }
+  EXPECT_GT(met, 5000);
+}
+
+// Light that is let through a hair must meet it once, wherever its pieces meet.
+TEST(Curves, AreEnteredOnceByALineAcross) {
+  std::vector<Vec3d> points;
+  for (int i = 0; i <= 8; ++i) points.push_back({std::sin(i * 0.2), std::cos(i * 0.2), 0});
+  const CompiledCurves curves(strand(points, std::vector<double>(9, 0.02)));
+  EXPECT_GT(curves.pieces(), 8u);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 20000; ++i) {
+    const double angle = 0.05 + 1.5 * uniform(random), r = 0.985 + 0.03 * uniform(random);
+    const Vec3d origin = {r * std::sin(angle), r * std::cos(angle), 1}, direction = {0, 0, -1};
+    int entries = 0;
+    for (double t = 0; entries < 4;) {
+      const auto hit = curves.intersect(origin + direction * t, direction, 10);
+      if (!hit) break;
+      ++entries;
+      t += hit->t + 1e-9;
+    }
+    ASSERT_EQ(entries, 1) << i;
+  }
+}
+
+TEST(Curves, WithoutThicknessCannotBeMet) {
+  const CompiledCurves curves(strand({{0, 0, 0}, {0, 1, 0}}, {0, 0}));
+  EXPECT_FALSE(curves.intersect({0, 0.5, 1}, {0, 0, -1}, 10));
+}
+
+}  // namespace
+}  // namespace tyndall::compile
