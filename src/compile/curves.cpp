@@ -91,8 +91,10 @@ void CompiledCurves::add_strand(const scene::StrandSet& strands, std::uint32_t s
         std::max(share_of_radius * 0.5 * (r0 + r1), share_of_span * length(span.p[2] - span.p[1]));
     // A chord of 1/n of a span lies within bend/(8 n²) of it.
     const double wanted = allowed > 0 ? std::sqrt(span.bend() / (8 * allowed)) : 1;
-    const int pieces =
-        std::clamp(static_cast<int>(std::ceil(std::min(wanted, 1.0 * most_pieces))), 1, most_pieces);
+    // Points too far apart for numbers have no wanted: one piece.
+    const int pieces = wanted >= most_pieces ? most_pieces
+                       : wanted > 1          ? static_cast<int>(std::ceil(wanted))
+                                             : 1;
     for (int n = i == 0 ? 0 : 1; n <= pieces; ++n) {
       const double u = static_cast<double>(n) / pieces;
       // The given points themselves, to the last bit.

@@ -12,9 +12,10 @@ namespace tyndall {
 bool print_verification() {
   fmt::print(
       "# Verification\n\n"
-      "Published and computed truths against what the renderer gives. Every line is rendered with 16 seeds; "
-      "the error is\n"
-      "the standard error of their mean. A line holds when it is within four of these and an allowance "
+      "Published and computed truths against what the renderer gives. Every line is rendered or drawn "
+      "with 16 seeds\n"
+      "(transmittance: 32,768 estimates along one ray); the error is the standard error of their mean. A "
+      "line holds when it is within four of these and an allowance "
       "stated beforehand: the\n"
       "truth's digits, and for the marching ways a bound of their bias. The tables of the truths are in\n"
       "`tests/support/law_scenes.h`; the law tests run the same lines "
