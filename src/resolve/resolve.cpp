@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/overloaded.h"
 #include "resolve/animation.h"
 #include "resolve/checks.h"
 #include "resolve/motion.h"
@@ -105,6 +106,19 @@ eval::RangeValue Structure::settled(const eval::RangeValue& now) {
   return place_ < earlier_->kept_.size() ? earlier_->kept_[place_++] : now;
 }
 
+bool only_defines(const syntax::SyntaxTree& tree) {
+  const auto items = tree.list_of_items(tree[tree.file].items);
+  return !items.empty() && std::all_of(items.begin(), items.end(), [&](syntax::ItemId id) {
+    return std::visit(
+        Overloaded{
+            [](const syntax::LetItem&) { return true; }, [](const syntax::FunctionItem&) { return true; },
+            [](const syntax::TemplateItem&) { return true; }, [](const syntax::BodyItem&) { return true; },
+            [](const syntax::ObjectItem&) { return true; }, [](const syntax::IncludeItem&) { return true; },
+            [](const auto&) { return false; }},
+        tree[id].node);
+  });
+}
+
 void note_unread(Run& run, const syntax::SyntaxTree& tree) {
   eval::Unread& unread = run.context.unread;
   unread.definitions.insert(unread.definitions.end(), tree.unread_definitions.begin(),
@@ -120,9 +134,10 @@ scene::Scene resolve(const syntax::SyntaxTree& tree, Sources& sources, syntax::S
   run_main_file(run);
   if (!run.finished()) {
     check_never_run(run);
+    check_overrides(run);
+    if (options.may_only_define && only_defines(tree)) return std::move(run.scene);
     check_unused_bodies(run);
     report_unused(run, *run.file_scope);
-    check_overrides(run);
     check_scene(run);
     if (run.context.shutter_open && run.context.time_reads > 0 && !run.diagnostics.has_errors())
       find_motion(run, scene_at);

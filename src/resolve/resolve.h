@@ -19,8 +19,12 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> overrides;  // --set NAME=EXPR
   std::vector<std::string> include_directories;
   shader::Options shader;
+  bool may_only_define = false;  // a file of nothing but definitions, for other scenes, is good
   long max_repetitions = resolve::max_repetitions;  // tests and fuzzers take fewer
 };
+
+// Whether a file holds definitions and includes alone: there is nothing in it to render.
+bool only_defines(const syntax::SyntaxTree& tree);
 
 // The scene that the tree describes, as far as it could be read; look at the diagnostics before using it.
 // Overrides and included files are added to `sources`.

@@ -172,6 +172,26 @@ std::optional<Ball> ball_around(const optics::Light& light) {
                     light);
 }
 
+// Calls visit(shape, world_from_object, material) for the shapes of a scene or prototype and of the objects
+// placed in it, `left` of them at most. `inherited`: the material of shapes without one.
+template <class Things, class Visit>
+void for_placed_shapes(const scene::Scene& scene, const Things& things, const Transform& world_from_things,
+                       scene::MaterialId inherited, std::size_t& left, Visit&& visit) {
+  for (const scene::ShapeInstance& shape : things.shapes) {
+    if (left == 0) return;
+    --left;
+    visit(shape, world_from_things * shape.world_from_object,
+          shape.material.valid() ? shape.material : inherited);
+  }
+  for (const scene::Instance& instance : things.instances) {
+    if (left == 0) return;
+    if (!instance.visible) continue;
+    for_placed_shapes(scene, scene.prototypes[instance.prototype.index],
+                      world_from_things * instance.world_from_object,
+                      instance.material.valid() ? instance.material : inherited, left, visit);
+  }
+}
+
 // A ball around all places from which the camera looks.
 Ball eye(const scene::Scene& scene) {
   return std::visit(Overloaded{
@@ -217,14 +237,16 @@ void warn_of_volumes_out_of_view(Run& run) {
 
 void warn_of_lights_shut_in(Run& run) {
   const scene::Scene& s = run.scene;
-  constexpr std::size_t most_pairs = 1'000'000;  // of lights and shapes: a warning is not to take seconds
-  if (!is_still(s.animation) || s.lights.size() * s.shapes.size() > most_pairs) return;
+  // Of lights and shapes: a warning is not to take seconds.
+  constexpr std::size_t most_pairs = 1'000'000;
+  if (!is_still(s.animation) || s.lights.empty()) return;
   const Ball camera = eye(s);
-  for (const scene::ShapeInstance& shape : s.shapes) {
-    if (!shape.visible || run.bodies.may_let_through.contains(shape.material.index)) continue;
-    const auto object_from_world = shape.world_from_object.inverse();
+  const auto look = [&](const scene::ShapeInstance& shape, const Transform& world_from_object,
+                        scene::MaterialId material) {
+    if (!shape.visible || run.bodies.may_let_through.contains(material.index)) return;
+    const auto object_from_world = world_from_object.inverse();
     if (!object_from_world || contains(shape.shape, *object_from_world, {camera.center, -camera.radius}))
-      continue;
+      return;
     for (const scene::LightInstance& light : s.lights) {
       const std::optional<Ball> ball = ball_around(light.light);
       if (ball && contains(shape.shape, *object_from_world, *ball))
@@ -232,7 +254,9 @@ void warn_of_lights_shut_in(Run& run) {
                                 "move it out, or make the shape a volume",
                                 {{shape.definition, "the shape is here"}});
     }
-  }
+  };
+  std::size_t left = most_pairs / s.lights.size();
+  for_placed_shapes(s, s, {}, {}, left, look);
 }
 
 }  // namespace tyndall::resolve

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "resolve/resolve.h"
 #include "tools/commands.h"
 #include "tools/load.h"
 #include "tools/report.h"
@@ -24,6 +25,7 @@ ExitStatus run_check(const CheckArguments& arguments) {
   for (const std::string& path : arguments.scenes) {
     SceneRequest request = arguments.request;
     request.path = path;
+    request.may_only_define = true;
     const std::unique_ptr<LoadedScene> loaded = load(request);
     const bool scene_good = !loaded->diagnostics.has_errors();
     good = good && scene_good;
@@ -33,7 +35,11 @@ ExitStatus run_check(const CheckArguments& arguments) {
                          {"good", scene_good},
                          {"diagnostics", to_json(loaded->diagnostics, loaded->sources)}});
     } else {
-      print_result(fmt::format("{}: {}\n", path, scene_good ? "good" : "has errors"));
+      const bool defines = scene_good && resolve::only_defines(loaded->tree);
+      print_result(fmt::format("{}: {}\n", path,
+                               defines      ? "good: definitions for other scenes"
+                               : scene_good ? "good"
+                                            : "has errors"));
     }
   }
   if (arguments.json) print_json({{"scenes", results}});

@@ -86,7 +86,8 @@ std::unique_ptr<LoadedScene> load(const SceneRequest& request, Stage last) {
   const resolve::Options options{.frame = request.frame,
                                  .overrides = request.overrides,
                                  .include_directories = request.include_directories,
-                                 .shader = {.watch = request.watch}};
+                                 .shader = {.watch = request.watch},
+                                 .may_only_define = request.may_only_define};
   loaded->scene =
       resolve::resolve(loaded->tree, loaded->sources, loaded->symbols, options, loaded->diagnostics);
   loaded->seconds.resolve = watch.lap();

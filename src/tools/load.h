@@ -27,7 +27,8 @@ struct SceneRequest {
   std::optional<int> frame;
   std::vector<std::pair<std::string, std::string>> overrides;  // --set NAME=EXPR
   std::vector<std::string> include_directories;
-  std::string watch;  // a name of media's bodies whose value is wanted as well (scene::Watched)
+  bool may_only_define = false;  // a file of definitions for other scenes is good
+  std::string watch;             // a name of media's bodies whose value is wanted as well (scene::Watched)
 };
 
 // Adds --frame, --set and --include to a command.

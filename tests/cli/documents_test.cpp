@@ -146,6 +146,9 @@ TEST_F(Documents, EverySceneIsGoodAndSaysItsPurpose) {
     if (text.find("\ncamera ") == std::string::npos) {  // definitions for other scenes
       EXPECT_NE(text.find("include \"lib/" + entry.path().filename().string()), std::string::npos)
           << entry.path();
+      const Outcome checked = tyndall({"check", entry.path().string()});
+      EXPECT_EQ(checked.out, entry.path().string() + ": good: definitions for other scenes\n");
+      EXPECT_EQ(checked.err, "");
       continue;
     }
     const Outcome outcome = tyndall({"render", entry.path().string(), "-o", path("a.png"), "--resolution",
