@@ -15,9 +15,12 @@ enum class Decision : std::uint8_t {
   light_surface,  // the same at surfaces
   shadow,         // offset of shadow marches
   roulette,
-  flight,  // null collisions
-  aimed,   // light, -, t, 2 of the light's surface
-  time,    // of a path, while the shutter is open
+  flight,             // null collisions
+  aimed,              // light, -, t, 2 of the light's surface
+  time,               // of a path, while the shutter is open
+  emission,           // cell of a medium that emits, 3 of the point in it
+  emission_surface,   // the same at surfaces
+  emission_distance,  // of the place that it lights: channel, t
 };
 
 // The sequence of a decision at one path segment. Branches: a camera ray continues both in the volume and

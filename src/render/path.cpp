@@ -10,7 +10,9 @@
 #include "base/numerics.h"
 #include "optics/light_sampling.h"
 #include "render/decisions.h"
+#include "render/emission_light.h"
 #include "render/light_met.h"
+#include "render/path_light.h"
 #include "render/path_state.h"
 #include "render/propagation.h"
 #include "render/worker.h"
@@ -39,6 +41,7 @@ class PathTracer {
       : world_(world),
         camera_(camera),
         settings_(settings),
+        context_{world, settings, worker},
         samples_(samples),
         worker_(worker),
         radiance_(outputs.radiance),
@@ -122,8 +125,7 @@ class PathTracer {
           s.ray.direction.y, s.ray.direction.z, m.count, luminance(m.end_transmittance()),
           luminance(s.throughput));
 
-    const bool first = s.depth == 0 && s.branch == 0;
-    add(s.throughput * m.emitted, first ? LightPart::volume_emission : s.part(s.depth), "emission of media");
+    gather_emission(s, m);
     meet_surfaces(s, m);
     if (!aovs_.empty()) record(s, m);
     if (s.depth > static_cast<std::uint32_t>(settings_.bounces)) {
@@ -135,7 +137,8 @@ class PathTracer {
     if (s.media_scatterings > settings_.real_scatterings) return false;
     const bool continues =
         s.depth < static_cast<std::uint32_t>(settings_.bounces) || settings_.gathers_after_last;
-    if (settings_.method == Method::tracking) light_aimed(s, continues && continues_in_volumes(s));
+    if (settings_.method == Method::tracking)
+      light_aimed(context_, *path_, s, continues && continues_in_volumes(s));
     return scatter(s, m, path_->light(), continues);
   }
 
@@ -203,6 +206,17 @@ class PathTracer {
             ray.higher.y, ray.higher.z);
     }
     worker_.shadows.clear();
+    for (const auto& ray : worker_.emission_rays.trace(world_, worker_)) {
+      radiance_[ray->sample] += ray->contribution;
+      if (!aovs_.empty()) {
+        aovs_[ray->sample].add(ray->part, ray->contribution);
+        aovs_[ray->sample].cost += 1 + ray->march.count;
+      }
+      if (trace_ && !is_black(ray->contribution))
+        say("  + ({:.6g}, {:.6g}, {:.6g}) emission of media, sampled\n", ray->contribution.x,
+            ray->contribution.y, ray->contribution.z);
+    }
+    worker_.emission_rays.clear();
   }
 
   // Direct light in the volume and on a surface, and the choice of the next ray.
@@ -219,7 +233,7 @@ class PathTracer {
     if (!flies(settings_.method))
       strategies.set(world_, m, s.throughput, settings_.method, settings_.distance,
                      settings_.orders_after(s.media_scatterings));
-    if (volume_mass > 0) light_volume(s, strategies, volume_continues, volume_probability);
+    if (volume_mass > 0) light_volume(context_, *path_, s, strategies, volume_continues, volume_probability);
 
     const double u = both && !met_.several() ? 0 : point(Decision::end_or_volume, s, 1)[0];
     if (surface_mass > 0 && (both || u >= volume_probability)) {
@@ -228,7 +242,7 @@ class PathTracer {
       const double probability = surface.mass / surface_mass * (both ? 1 : 1 - volume_probability);
       PathState next = s;
       next.throughput = surface.throughput * static_cast<float>(1 / probability);
-      light_surface(next, *surface.point, continues);
+      light_surface(context_, *path_, next, *surface.point, continues);
       const bool goes_on = continues && continue_from_surface(next, *surface.point);
       if (!both || volume_mass <= 0) {
         s = next;
@@ -249,43 +263,11 @@ class PathTracer {
     path.sampler = from.sampler;
   }
 
-  void light_volume(const PathState& s, LightStrategies& strategies, bool continues,
-                    double volume_probability) {
-    if (strategies.empty()) return;
-    worker_.shadows.set_sample(path_->sample, s.direct_part(), s.higher_part());
-    const int samples = s.depth == 0 ? settings_.light_samples : 1;
-    for (int k = 0; k < samples; ++k) {
-      const std::uint32_t shadow_seed = sampler().bits(id(Decision::shadow, s), k);
-      strategies.sample(many(Decision::light, s, k, samples), shadow_seed, s.throughput, continues,
-                        volume_probability, samples, worker_);
-    }
-  }
-
-  void light_aimed(const PathState& s, bool continues) {
-    worker_.shadows.set_sample(path_->sample, s.direct_part(), s.higher_part());
-    path_->light().sample_aimed(point(Decision::aimed, s, 5),
-                                sampler().bits(id(Decision::shadow, s), 0x20000), s.throughput, continues,
-                                worker_);
-  }
-
-  void light_surface(const PathState& s, const SurfacePoint& surface, bool continues) {
-    if (surface.only_deltas) return;
-    LightChoice& lights = worker_.surface_lights;
-    lights.set(world_, surface.position, surface.normal, 0, 0, s.ray.time);
-    if (lights.empty()) return;
-    worker_.shadows.set_sample(path_->sample, s.part(s.depth + 1));
-    const int samples = s.depth == 0 ? settings_.light_samples : 1;
-    for (int k = 0; k < samples; ++k) {
-      const std::uint32_t shadow_seed = sampler().bits(id(Decision::shadow, s), 0x10000 + k);
-      sample_surface_light(world_, surface, lights, many(Decision::light_surface, s, k, samples), shadow_seed,
-                           s.throughput, continues, samples, worker_);
-    }
-  }
-
   bool continue_in_volume(PathState& s, const March& m, const LightStrategies& strategies,
                           double volume_probability) {
     const SobolPoint v = point(Decision::direction, s, 4);
-    const Scattering at = draw_scattering(settings_, *path_, volume_probability);
+    const Scattering at =
+        draw_scattering(settings_, *path_, point(Decision::distance, s, 2), volume_probability);
     worker_.phase.set(world_, m, at.segment);
     const float cosine_complement = worker_.phase.sample(v[0], v[1], v[2]);
     const float pdf_phase = worker_.phase.pdf(cosine_complement);
@@ -297,7 +279,13 @@ class PathTracer {
     const Vec3d x = s.ray.origin + s.ray.direction * at.t;
     const Vec3f w =
         optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[3]);
-    s.origin = {PathOrigin::Kind::volume, x, at.pdf * pdf_phase, &strategies, at.segment, at.t};
+    s.origin = {PathOrigin::Kind::volume,
+                x,
+                at.pdf * pdf_phase,
+                volume_probability * pdf_phase,
+                &strategies,
+                at.segment,
+                at.t};
     s.ray = {x, normalize(Vec3d(w)), infinity, s.ray.time};
     return next_depth(s);
   }
@@ -308,8 +296,13 @@ class PathTracer {
     if (!next) return false;
     s.throughput *= next->weight;
     const Vec3d& start = surface.start(next->direction);
-    s.origin = {
-        next->delta ? PathOrigin::Kind::delta : PathOrigin::Kind::surface, start, next->pdf, nullptr, 0, 0};
+    s.origin = {next->delta ? PathOrigin::Kind::delta : PathOrigin::Kind::surface,
+                start,
+                next->pdf,
+                next->pdf,
+                nullptr,
+                0,
+                0};
     s.ray = {start, next->direction, infinity, s.ray.time};
     if (surface.transmits && dot(surface.normal, next->direction) < 0)
       s.index_scale *= static_cast<float>(sqr(surface.eta));
@@ -330,6 +323,15 @@ class PathTracer {
     if (sampler().independent(id(Decision::roulette, s), 0) >= survival) return false;
     s.throughput /= survival;
     return true;
+  }
+
+  void gather_emission(const PathState& s, const March& m) {
+    if (is_black(m.emitted)) return;
+    const float share =
+        settings_.emission ? weight_of_met_emission(*settings_.emission, settings_.light_samples, s) : 1;
+    const bool first = s.depth == 0 && s.branch == 0;
+    add(s.throughput * m.emitted * share, first ? LightPart::volume_emission : s.part(s.depth),
+        "emission of media");
   }
 
   void gather_infinity(const PathState& s, const Rgb& at_end) {
@@ -367,9 +369,6 @@ class PathTracer {
   SobolPoint point(Decision d, const PathState& s, int dimensions) const {
     return sampler().point(id(d, s), dimensions);
   }
-  SobolPoint many(Decision d, const PathState& s, int k, int count) const {
-    return sampler().point(id(d, s), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(count));
-  }
   void add(const Rgb& radiance, LightPart part, std::string_view what) {
     radiance_[path_->sample] += radiance;
     if (!aovs_.empty()) aovs_[path_->sample].add(part, radiance);
@@ -384,6 +383,7 @@ class PathTracer {
   const CompiledScene& world_;
   const CameraRays& camera_;
   const PathSettings& settings_;
+  const PathContext context_;
   std::span<const CameraSample> samples_;
   Worker& worker_;
   std::span<Rgb> radiance_;

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "compile/compiled_scene.h"
 #include "render/camera.h"
+#include "render/emission_field.h"
 #include "render/higher_orders.h"
 #include "render/render.h"
 #include "render/worker.h"
@@ -29,6 +31,8 @@ struct PathSettings {
   // Rays after the last bounce are traced only when they could meet light that is not sampled directly, or
   // that competes with it by MIS.
   bool gathers_after_last = false;
+  std::shared_ptr<const EmissionField>
+      emission;  // of media, to be sampled as light; null: met by chance alone
 
   // The orders that direct light has along a ray after so many scatterings in media.
   std::span<const ScatteringOrder> orders_after(std::uint32_t media_scatterings) const {

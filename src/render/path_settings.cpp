@@ -16,6 +16,9 @@ PathSettings path_settings(const compile::CompiledScene& world, const RenderOpti
     settings.real_scatterings = static_cast<std::uint32_t>(approximation->real);
     settings.orders = higher_orders(*approximation);
   }
+  // Rays that sum emission are marched, which is not what unbiased tracking is asked for.
+  if (f.medium_emission && options.emission_sampling && options.method != Method::tracking)
+    settings.emission = EmissionField::of(world);
   if (options.error || options.aovs.has(Aov::variance)) settings.groups = error_groups;
   settings.gathers_after_last =
       f.area_lights || f.distant_discs || f.environment || f.medium_emission || f.surface_emission;

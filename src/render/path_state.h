@@ -21,6 +21,7 @@ struct PathOrigin {
   enum class Kind : std::uint8_t { camera, volume, surface, delta } kind = Kind::camera;
   Vec3d position;
   double pdf = 0;                               // volume: per metre and steradian; surface: per steradian
+  double direction_pdf = 0;                     // of both, per steradian, once the place is there
   const LightStrategies* strategies = nullptr;  // volume: of the ray that was scattered
   std::uint32_t segment = 0;
   double t = 0;

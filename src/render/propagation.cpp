@@ -47,13 +47,13 @@ void propagate(const compile::CompiledScene& world, const PathSettings& settings
   }
 }
 
-Scattering draw_scattering(const PathSettings& settings, PathSlot& path, double volume_probability) {
+Scattering draw_scattering(const PathSettings& settings, PathSlot& path, const SobolPoint& u,
+                           double volume_probability) {
   const March& m = path.march();
   if (flies(settings.method)) {
     const Flight& flight = path.flight();
     return {flight.t, m.segment_at(flight.t), flight.density, flight.weight};
   }
-  const SobolPoint u = path.sampler->point(id(Decision::distance, path.state), 2);
   const DensityDistribution& density = path.light().density();
   Scattering out;
   out.t = density.sample(u[0], u[1]);

@@ -25,6 +25,8 @@ struct Scattering {
   double pdf = 0;  // [1/m], times the probability of going on in the volume
   Rgb weight;      // sigma_s T / pdf
 };
-Scattering draw_scattering(const PathSettings& settings, PathSlot& path, double volume_probability);
+// For two numbers in [0, 1), which methods that fly do not ask for.
+Scattering draw_scattering(const PathSettings& settings, PathSlot& path, const SobolPoint& u,
+                           double volume_probability);
 
 }  // namespace tyndall::render

@@ -38,6 +38,7 @@ struct RenderOptions {
   Method method = Method::decoupled;
   Distance distance = Distance::product;  // of the decoupled method; of tracking as far as it has them
   Transmittance transmittance = Transmittance::march;
+  bool emission_sampling = true;  // media that emit are sampled as lights; false to measure what that saves
   // Half-open pixel rectangle and sample range; defaults: everything.
   struct Crop {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;

@@ -12,6 +12,7 @@
 #include "render/camera.h"
 #include "render/certified.h"
 #include "render/direct_light.h"
+#include "render/emission_rays.h"
 #include "render/flight.h"
 #include "render/march.h"
 #include "render/product.h"
@@ -76,6 +77,7 @@ struct Worker {
   LightChoice surface_lights;
   PhaseMixture phase;
   ShadowBatch shadows;
+  EmissionBatch emission_rays;
   std::vector<Rgb> higher_contributions;  // of one shadow ray
   std::vector<Intervald> stretches;
   Product product;

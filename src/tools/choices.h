@@ -32,6 +32,8 @@ inline constexpr Choice<render::Transmittance> transmittances[] = {
     {"series", render::Transmittance::series},
 };
 
+inline constexpr Choice<bool> emissions[] = {{"sampled", true}, {"met", false}};
+
 // The name of a method; every one is in its table.
 template <class Method, std::size_t count>
 constexpr std::string_view name_in(const Choice<Method> (&table)[count], Method method) {

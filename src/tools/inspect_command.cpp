@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "compile/compiled_scene.h"
+#include "render/emission_field.h"
 #include "tools/commands.h"
 #include "tools/load.h"
 #include "tools/look.h"
@@ -46,6 +47,7 @@ std::string features_text(LoadedScene& loaded) {
       {"media that vary in space", features.heterogeneous},
       {"extinction that differs in colour", features.chromatic},
       {"media that emit", features.medium_emission},
+      {"media sampled as lights", features.medium_emission && render::EmissionField::of(world) != nullptr},
       {"lights without size", features.delta_lights},
       {"lights with size", features.area_lights},
       {"environment", features.environment},

@@ -187,6 +187,8 @@ void add_method_options(CLI::App& command, RenderArguments& arguments) {
              "how distances for direct light are drawn");
   add_choice(command, "--transmittance", transmittances, arguments.transmittance,
              "how much of a light arrives through what has no closed form");
+  add_choice(command, "--emission", emissions, arguments.emission_sampling,
+             "whether media that emit are sampled as lights or met by chance");
 }
 
 // Options that say when a rendering ends, and what it writes beside the picture.
@@ -324,6 +326,8 @@ std::string replay_command(const RenderArguments& arguments, int x, int y, std::
     command += fmt::format(" --distance {}", name(arguments.distance));
   if (arguments.transmittance != defaults.transmittance)
     command += fmt::format(" --transmittance {}", name(arguments.transmittance));
+  if (arguments.emission_sampling != defaults.emission_sampling)
+    command += fmt::format(" --emission {}", name_in(emissions, arguments.emission_sampling));
   return command + fmt::format(" --pixel {},{} --sample {}", x, y, sample);
 }
 

@@ -36,6 +36,7 @@ struct RenderArguments {
   render::Method method = render::RenderOptions{}.method;
   render::Distance distance = render::RenderOptions{}.distance;
   render::Transmittance transmittance = render::RenderOptions{}.transmittance;
+  bool emission_sampling = render::RenderOptions{}.emission_sampling;
   bool strict = false, quiet = false, json = false, profile = false;
 };
 

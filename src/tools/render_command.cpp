@@ -81,6 +81,7 @@ render::RenderOptions options_of(const RenderArguments& arguments) {
   options.method = arguments.method;
   options.distance = arguments.distance;
   options.transmittance = arguments.transmittance;
+  options.emission_sampling = arguments.emission_sampling;
   options.crop = arguments.crop;
   options.aovs = arguments.aovs;
   options.error = arguments.error;

@@ -57,10 +57,11 @@ image::Metadata metadata_of(const RenderArguments& arguments, const scene::Scene
                             const std::string& scene_hash, const render::Statistics& statistics) {
   const SampleRange samples = samples_of(arguments, scene);
   std::string settings = fmt::format(
-      "step={} light_samples={} bounces={} multiple_scattering={} method={} distance={} transmittance={}",
+      "step={} light_samples={} bounces={} multiple_scattering={} method={} distance={} transmittance={} "
+      "emission={}",
       scene::describe(scene.settings.step), scene.settings.light_samples, scene.settings.bounces,
       scene::describe(scene.settings.multiple_scattering), name(arguments.method), name(arguments.distance),
-      name(arguments.transmittance));
+      name(arguments.transmittance), name_in(emissions, arguments.emission_sampling));
   if (arguments.crop) {
     const auto& crop = *arguments.crop;
     settings += fmt::format(" crop={},{},{},{}", crop.x0, crop.y0, crop.x1, crop.y1);

@@ -13,6 +13,9 @@ void bench_bounds(double seconds_a_row);
 // Ten lights against a thousand, at equal error. False when a thousand cost more than three times as much.
 bool bench_lights();
 
+// Fire sampled as light against fire that is met by chance, at equal time. False when a scene cannot be read.
+bool bench_fire();
+
 // `multiple_scattering: approximate` against the full solution: error and time on clouds and smoke. False
 // when a scene cannot be read.
 bool bench_scattering();
