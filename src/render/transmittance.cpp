@@ -22,6 +22,12 @@ std::uint32_t segments_for(double length, double step, Worker& worker) {
   return max_segments;
 }
 
+// A march's first segments are evaluated at once; the others after roulette, when those were darker than
+// this.
+constexpr std::uint32_t first_segments = 32;
+constexpr double dark_depth = 4, least_survival = 0.05;
+constexpr std::uint64_t roulette_seed = 0xda7cull << 32;
+
 // Each march of one ray has its own jitter; the first has the ray's.
 std::uint32_t march_seed(std::uint32_t seed, std::uint32_t march) {
   return march == 0 ? seed : static_cast<std::uint32_t>(hash_bits(seed, march) >> 32);
@@ -36,6 +42,7 @@ std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& worl
   estimates_.assign(rays_.size(), {0, 0});
   depth_.clear();
   stays_.clear();
+  rest_.clear();
   ratio_.clear(rays_.size());
   for (std::uint32_t r = 0; r < rays_.size(); ++r) {
     ++worker.statistics.shadow_rays;
@@ -48,6 +55,10 @@ std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& worl
     if (world.features.volumes && brings) collect_stays(world, r, method, worker);
   }
   march_stays(world, worker);
+  if (!rest_.empty()) {
+    play_roulette();
+    march_stays(world, worker);
+  }
   ratio_.run(world, method, rays_, worker);
 
   for (std::uint32_t r = 0; r < rays_.size(); ++r) {
@@ -93,10 +104,40 @@ void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32
     const Estimates& e = estimates_[ray];
     std::uint32_t n = segments_for(length, s.step, worker);
     if (method == Transmittance::jackknife) n = (n + 1) / 2;  // of two marches: as many in all
-    for (std::uint32_t march = e.first; march < e.first + e.count; ++march)
-      stays_.push_back({volume.medium, s.volume, ray, march, laid, n, s.t0, length / n});
+    // Higher orders may see much of what is dark to the first.
+    const std::uint32_t at_once =
+        rays_[ray].has_higher() ? n : std::min(n, first_segments - std::min(laid, first_segments));
+    const double dt = length / n;
+    for (std::uint32_t march = e.first; march < e.first + e.count; ++march) {
+      if (at_once > 0) stays_.push_back({volume.medium, s.volume, ray, march, laid, at_once, s.t0, dt});
+      if (at_once < n)
+        rest_.push_back(
+            {volume.medium, s.volume, ray, march, laid + at_once, n - at_once, s.t0 + at_once * dt, dt});
+    }
     laid += n;
-    rays_[ray].segments += n * e.count;
+  }
+}
+
+// Rays whose beginning is opaque end by chance; the others bring as much more. Leaves the rest of their
+// stays. Whatever an estimator makes of the depths, the mean is the same: the chance hangs on the beginning
+// alone.
+void ShadowBatch::play_roulette() {
+  stays_.clear();
+  std::uint32_t at = static_cast<std::uint32_t>(rays_.size());
+  bool goes_on = false;
+  for (const Stay& stay : rest_) {  // ray after ray
+    if (stay.ray != at) {
+      at = stay.ray;
+      ShadowRay& ray = rays_[at];
+      const Estimates& e = estimates_[at];
+      double depth = infinity;
+      for (std::uint32_t march = e.first; march < e.first + e.count; ++march)
+        for (std::size_t c = 0; c < 3; ++c) depth = std::min(depth, closed_[at][c] + depth_[march][c]);
+      const double survival = std::clamp(std::exp(dark_depth - depth), least_survival, 1.0);
+      goes_on = unit_float(static_cast<std::uint32_t>(hash_bits(ray.seed, roulette_seed) >> 32)) < survival;
+      ray.contribution *= goes_on ? static_cast<float>(1 / survival) : 0.0f;
+    }
+    if (goes_on) stays_.push_back(stay);
   }
 }
 
@@ -186,6 +227,7 @@ void ShadowBatch::march_stays(const compile::CompiledScene& world, Worker& worke
         }
         depth_[s->march][c] += tau[c];
       }
+    for (auto s = first; s != last; ++s) rays_[s->ray].segments += s->count;
     first = last;
   }
 }

@@ -74,6 +74,7 @@ class ShadowBatch {
   void lay_estimates(std::uint32_t ray, Transmittance method);
   void collect_stays(const compile::CompiledScene& world, std::uint32_t ray, Transmittance method,
                      Worker& worker);
+  void play_roulette();
   void march_stays(const compile::CompiledScene& world, Worker& worker);
   // Through `extinction` times the extinction.
   double transmittance(std::uint32_t ray, std::size_t channel, Transmittance method, double extinction);
@@ -88,7 +89,7 @@ class ShadowBatch {
   std::vector<Vec3d> closed_;         // optical depth known in closed form, per ray
   std::vector<Vec3d> depth_;          // estimated optical depth, per march
   std::vector<Stretch> stretches_;
-  std::vector<Stay> stays_;
+  std::vector<Stay> stays_, rest_;  // to be marched now, and after roulette
   RatioTracking ratio_;
   std::vector<float> values_;
   std::vector<double> one_channel_;
