@@ -28,19 +28,30 @@ Vec3d observer(double nanometres) {
           lobe(nanometres, 0.681, 459.0, 1 / 26.0, 1 / 13.8)};
 }
 
-// Colour for 1/T [1/K], components not below zero, luminance 1.
-Vec3d color(double inverse_kelvin) {
+constexpr int shortest_nm = 360, longest_nm = 830;
+
+// The observer over l^5 (Planck's law has it), for every whole nanometre.
+using ObserverTable = std::array<Vec3d, longest_nm - shortest_nm + 1>;
+
+ObserverTable weighted_observer() {
+  ObserverTable table;
+  for (int nm = shortest_nm; nm <= longest_nm; ++nm)
+    table[static_cast<std::size_t>(nm - shortest_nm)] = observer(nm) / std::pow(double(nm), 5);
+  return table;
+}
+
+// Colour for 1/T [1/K], T at least blackbody_coolest; components not below zero, luminance 1.
+Vec3d color(double inverse_kelvin, const ObserverTable& weighted) {
   constexpr double second_radiation_constant = 1.438776877e7;  // h c / k [nm K]
+  // Planck's law up to a factor that does not depend on the wavelength; the exponent at 600 nm keeps it in
+  // range (below 50 at the coolest). As T grows it tends to T / l^4.
+  const double reference = second_radiation_constant * inverse_kelvin / 600;
+  const double scale = reference * std::exp(reference);
   Vec3d xyz;
-  for (int nanometres = 360; nanometres <= 830; ++nanometres) {
-    const double l = nanometres, exponent = second_radiation_constant * inverse_kelvin / l;
-    // Planck's law up to a factor that does not depend on the wavelength; l/1000 and the exponent at 600 nm
-    // keep it in range. As T grows it tends to T / l^4.
-    const double reference = second_radiation_constant * inverse_kelvin / 600;
-    const double planck = exponent < 1e-9 ? 1 / (l * l * l * l)
-                                          : reference * std::exp(reference - exponent) /
-                                                -std::expm1(-exponent) / (l * l * l * l * l);
-    xyz += observer(l) * planck;
+  for (int nm = shortest_nm; nm <= longest_nm; ++nm) {
+    const double exponent = second_radiation_constant * inverse_kelvin / nm;
+    const double planck = exponent < 1e-9 ? nm / 600.0 : scale / std::expm1(exponent);
+    xyz += weighted[static_cast<std::size_t>(nm - shortest_nm)] * planck;
   }
   // Rec. 709 primaries, white D65 (IEC 61966-2-1).
   const Vec3d rgb = {std::max(0.0, 3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z),
@@ -51,9 +62,10 @@ Vec3d color(double inverse_kelvin) {
 
 BlackbodyTable make_table() {
   BlackbodyTable table{};
+  const ObserverTable weighted = weighted_observer();
   for (std::size_t i = 0; i < blackbody_entries; ++i) {
     const double steps = static_cast<double>(blackbody_entries - 1);
-    const Vec3f rgb(color(static_cast<double>(i) / steps / static_cast<double>(blackbody_coolest)));
+    const Vec3f rgb(color(static_cast<double>(i) / steps / static_cast<double>(blackbody_coolest), weighted));
     table.red[i] = rgb.x;
     table.green[i] = rgb.y;
     table.blue[i] = rgb.z;
