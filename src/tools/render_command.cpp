@@ -71,6 +71,15 @@ std::string scattering_problem(const RenderArguments& arguments, const scene::Re
       name(arguments.transmittance));
 }
 
+// What of the options and the scene will not be heeded.
+void warn_of_what_is_ignored(const RenderArguments& arguments, const scene::RenderSettings& settings) {
+  if (arguments.method != render::Method::decoupled && settings.light_samples > 1)
+    print_warning(
+        fmt::format("light_samples {} has no effect with --method {}: only decoupled marching takes more "
+                    "than one light point for a segment of a path",
+                    settings.light_samples, name(arguments.method)));
+}
+
 double exposure_of(const scene::Scene& scene) {
   return std::visit([](const auto& camera) { return camera.exposure; }, scene.camera);
 }
@@ -210,6 +219,7 @@ ExitStatus run_render(const RenderArguments& arguments) {
     return misuse(problem);
   if (const std::string problem = scattering_problem(arguments, loaded->scene.settings); !problem.empty())
     return misuse(problem);
+  warn_of_what_is_ignored(arguments, loaded->scene.settings);
 
   StageSeconds seconds{loaded->seconds.read, loaded->seconds.parse, loaded->seconds.resolve};
   Stopwatch watch;

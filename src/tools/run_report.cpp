@@ -155,6 +155,13 @@ void report_bad_values(const RenderArguments& arguments, const render::Statistic
            fmt::format("{} {} not finite, and counted as black", statistics.bad_samples,
                        statistics.bad_samples == 1 ? "sample was" : "samples were"),
            "the first again: " + replay_command(arguments, first->x, first->y, first->sample));
+  if (statistics.cut_majorants > 0)
+    diagnostics.warning(
+        {},
+        fmt::format("the proven bounds of a density were too great to track through, and cut {} {}",
+                    statistics.cut_majorants, statistics.cut_majorants == 1 ? "time" : "times"),
+        "the picture may be noisy or wrong there: limit the density by min(…), or leave out --method and "
+        "--transmittance, for marching needs no bounds");
 }
 
 std::string summary_line(const RenderArguments& arguments, const scene::Scene& scene,

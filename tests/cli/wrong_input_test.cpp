@@ -176,6 +176,33 @@ TEST_F(WrongInput, MisuseIsStatusTwo) {
   }
 }
 
+TEST_F(WrongInput, LightSamplesThatAMethodCannotTakeAreWarnedOf) {
+  const std::vector<std::string> render = {
+      "render", file("a.tyn", small_scene()), "-o", path("a.png"), "--light-samples", "4", "--method"};
+  const auto error_of = [&](const std::string& method) {
+    std::vector<std::string> arguments = render;
+    arguments.push_back(method);
+    const Outcome outcome = tyndall(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_NE(error_of("tracking").find("warning: light_samples 4 has no effect"), std::string::npos);
+  EXPECT_EQ(error_of("decoupled").find("warning"), std::string::npos);
+}
+
+TEST_F(WrongInput, BoundsTooGreatToTrackAreWarnedOf) {
+  const std::string scene = file("a.tyn", R"(
+render { resolution: (4, 4)  samples: 1 }
+camera perspective { from: (0, 0.2, 4)  to: (0, 0, 0)  fov: 40deg }
+volume { in: sphere { radius: 1 }  medium: { density = 0.001 / max(1e-12, abs(p.z))  albedo = 0.9 } }
+light point { position: (0, 2, 0)  power: 100 }
+)");
+  const std::string warning = "warning: the proven bounds of a density were too great";
+  EXPECT_NE(tyndall({"render", scene, "-o", path("a.png"), "--method", "tracking"}).err.find(warning),
+            std::string::npos);
+  EXPECT_EQ(tyndall({"render", scene, "-o", path("a.png")}).err.find(warning), std::string::npos);
+}
+
 TEST_F(WrongInput, AnOverrideOfNothingIsAnError) {
   const std::string scene = file("a.tyn", small_scene());
   EXPECT_REFUSED(tyndall({"check", scene, "--set", "thicknes=3"}), "thickness");
