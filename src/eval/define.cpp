@@ -119,6 +119,44 @@ Value Evaluator::value_of_name(SymbolId symbol, Span span, const Scope& scope) {
   return unknown_name(symbol, span, &scope, {});
 }
 
+namespace {
+
+// The name that an item defines; none if it defines none.
+const syntax::Name* name_defined_by(const syntax::Item& item) {
+  return std::visit(
+      [](const auto& node) -> const syntax::Name* {
+        using Node = std::decay_t<decltype(node)>;
+        if constexpr (std::is_same_v<Node, syntax::LetItem> || std::is_same_v<Node, syntax::VarItem> ||
+                      std::is_same_v<Node, syntax::FunctionItem> ||
+                      std::is_same_v<Node, syntax::TemplateItem> || std::is_same_v<Node, syntax::BodyItem> ||
+                      std::is_same_v<Node, syntax::ObjectItem>)
+          return &node.name;
+        else
+          return nullptr;
+      },
+      item.node);
+}
+
+}  // namespace
+
+std::optional<DefinedElsewhere> Context::defined_elsewhere(SymbolId symbol, const Span& use) const {
+  std::optional<DefinedElsewhere> in_a_block;
+  for (const SyntaxTree* tree : trees) {
+    const auto in_file = tree->list_of_items((*tree)[tree->file].items);
+    for (std::uint32_t i = 0; i < tree->items.size(); ++i) {
+      const syntax::Item& item = tree->items[i];
+      const syntax::Name* name = name_defined_by(item);
+      const bool around =
+          item.span.source == use.source && item.span.begin <= use.begin && use.end <= item.span.end;
+      if (!name || name->symbol != symbol || around) continue;
+      if (std::any_of(in_file.begin(), in_file.end(), [i](syntax::ItemId id) { return id.index == i; }))
+        return DefinedElsewhere{name->span, "a definition comes before its uses: move it up"};
+      if (!in_a_block) in_a_block = {name->span, "it is known in its own block only, below its definition"};
+    }
+  }
+  return in_a_block;
+}
+
 Value Evaluator::unknown_name(SymbolId symbol, Span span, const Scope* scope,
                               std::span<const SymbolId> locals, std::optional<BodyKind> inputs) {
   const std::string_view word = text(symbol);
@@ -135,6 +173,9 @@ Value Evaluator::unknown_name(SymbolId symbol, Span span, const Scope* scope,
     ++errors_reported_;
     return {};
   }
+  if (const auto elsewhere = context_.defined_elsewhere(symbol, span))
+    return error_once(span, fmt::format("nothing is named '{}' here", word), std::string(elsewhere->help),
+                      {{elsewhere->place, fmt::format("'{}' is defined here", word)}});
   // Those that nothing uses first: one of them may have been meant.
   std::vector<std::string_view> candidates;
   for (const bool used : {false, true})

@@ -37,6 +37,12 @@ struct Unread {
   }
 };
 
+// Where a name is defined that is not known where it was used, and how it could be.
+struct DefinedElsewhere {
+  Span place;
+  std::string_view help;
+};
+
 // What a whole run shares.
 struct Context {
   const Sources* sources = nullptr;
@@ -46,10 +52,14 @@ struct Context {
   double frame = 0;
   bool shutter_open = false;     // for some time: in bodies what depends on `time` is a function of it
   std::uint64_t time_reads = 0;  // how often scene code asked for `time`, or for what depends on it
-  SourceId main_source{0};  // the file whose unused names are warned of
+  SourceId main_source{0};       // the file whose unused names are warned of
   Unread unread{};
-  ImageReader* images = nullptr;   // none: there are no pictures
+  std::vector<const syntax::SyntaxTree*> trees{};  // that were read so far
+  ImageReader* images = nullptr;                   // none: there are no pictures
   std::shared_ptr<Names> names{};  // made when first needed; must outlive the values of the run
+
+  // For a name that was used in vain at `use`: a definition of it that comes later, or within a block.
+  std::optional<DefinedElsewhere> defined_elsewhere(syntax::SymbolId symbol, const Span& use) const;
 };
 
 // How many values a range holds (0 when empty, or when its step is 0 or not finite), and the i-th.

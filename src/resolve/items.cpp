@@ -77,8 +77,13 @@ bool Run::may_repeat(double rounds, Span span) {
 }
 
 void report_undefined(Run& run, syntax::SymbolId symbol, Span span, std::string message, std::string help) {
-  if (!run.context.unread.may_define(symbol))
-    run.diagnostics.error_once(span, std::move(message), std::move(help));
+  if (run.context.unread.may_define(symbol)) return;
+  std::vector<Diagnostic::Note> notes;
+  if (const auto elsewhere = run.context.defined_elsewhere(symbol, span)) {
+    help = elsewhere->help;
+    notes.push_back({elsewhere->place, fmt::format("'{}' is defined here", run.symbols.text(symbol))});
+  }
+  run.diagnostics.error_once(span, std::move(message), std::move(help), std::move(notes));
 }
 
 void run_block(Run& run, const Site& site, syntax::BlockId block, Parameters parameters) {

@@ -74,6 +74,13 @@ std::string no_parameter(std::string_view name, std::string_view keyword) {
   return fmt::format("no parameter '{}' in '{}'", name, keyword);
 }
 
+// The name of what an item calls; none if it calls nothing.
+static const syntax::NameExpr* name_of_call(const syntax::SyntaxTree& tree, const syntax::Item& item) {
+  const auto* call_item = std::get_if<syntax::CallItem>(&item.node);
+  const auto* call = call_item ? std::get_if<syntax::CallExpr>(&tree[call_item->call].node) : nullptr;
+  return call ? std::get_if<syntax::NameExpr>(&tree[call->callee].node) : nullptr;
+}
+
 Reader::Reader(eval::Evaluator& evaluator, const Schemas& schemas, ReaderSite site, syntax::BlockId block,
                std::string_view keyword, Span header, Others others)
     : evaluator_(evaluator),
@@ -101,7 +108,14 @@ Reader::Reader(eval::Evaluator& evaluator, const Schemas& schemas, ReaderSite si
       if (others == Others::allowed) continue;
       error(assign->name.span, fmt::format("a parameter of '{}' is given with ':', not '='", keyword_),
             fmt::format("write `{}: …`", symbols_.text(assign->name.symbol)));
-    } else if (others == Others::refused) {
+      meant_.push_back(assign->name.symbol);
+    } else if (others == Others::allowed) {
+      continue;
+    } else if (const syntax::NameExpr* called = name_of_call(tree, item)) {
+      error(item.span, fmt::format("a parameter of '{}' is given with ':'", keyword_),
+            fmt::format("write `{}: …`", symbols_.text(called->symbol)));
+      meant_.push_back(called->symbol);
+    } else {
       error(item.span, fmt::format("'{}' holds parameters only", keyword_),
             "statements stand beside it, or in a `group { … }`");
     }
@@ -170,6 +184,12 @@ void Reader::report_unknown(const Given& given, std::string_view hint) {
 void Reader::finish(std::string_view hint) {
   for (const Given& given : given_)
     if (!given.taken) report_unknown(given, hint);
+  std::erase_if(missing_, [&](const Missing& missing) {
+    return std::any_of(meant_.begin(), meant_.end(), [&](syntax::SymbolId name) {
+      return std::find(missing.names.begin(), missing.names.end(), symbols_.text(name)) !=
+             missing.names.end();
+    });
+  });
   for (const Missing& missing : missing_) report_missing(missing);
   if (ok_) report(problems_);
 }

@@ -158,6 +158,8 @@ class Reader {
   std::string_view keyword_;
   Span header_;
   std::vector<Given> given_;
+  std::vector<syntax::SymbolId>
+      meant_;                         // names given in a wrong way, which has been told: they are not missing
   std::array<ListNames, 3> known_{};  // of the structs read so far: candidates for "did you mean"
   std::size_t known_count_ = 0;
   std::vector<Missing> missing_;

@@ -124,6 +124,7 @@ void note_unread(Run& run, const syntax::SyntaxTree& tree) {
   unread.definitions.insert(unread.definitions.end(), tree.unread_definitions.begin(),
                             tree.unread_definitions.end());
   unread.file = unread.file || tree.gave_up;
+  run.context.trees.push_back(&tree);
 }
 
 scene::Scene resolve(const syntax::SyntaxTree& tree, Sources& sources, syntax::Symbols& symbols,

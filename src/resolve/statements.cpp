@@ -7,6 +7,7 @@
 
 #include "resolve/reader.h"
 #include "resolve/run.h"
+#include "syntax/foreign_words.h"
 
 namespace tyndall::resolve {
 
@@ -102,6 +103,8 @@ std::string help_for(Run& run, const Site& site, const syntax::ThingItem& thing)
     if (binding->value.type == eval::Type::function)
       return fmt::format("a template is called: `{}(…)`", word);
   }
+  if (const std::string_view help = syntax::help_for_foreign_word(word); !help.empty())
+    return std::string(help);
   std::vector<std::string_view> words;
   for (const Statement& row : run.statements.rows()) words.push_back(row.name.substr(0, row.name.find(' ')));
   for (const eval::Scope* scope = site.scope.get(); scope; scope = scope->parent.get())

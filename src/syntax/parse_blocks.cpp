@@ -54,10 +54,18 @@ BlockId Parser::block(BlockPlace place, std::string_view owner) {
   const std::uint32_t first = at_;
   const std::uint32_t outer_tallest = std::exchange(tallest_, 0);
   std::vector<ItemId> list;
-  if (enter() && open_block(owner)) {
+  // One item on the line of a header, without its braces.
+  const bool bare = !panic_ && place != BlockPlace::thing && begins_item(at_) && !first_on_line(at_);
+  if (enter() && (bare || open_block(owner))) {
     const BlockPlace outer_place = std::exchange(place_, place);
     const bool in_header = std::exchange(brace_opens_body_, false);
-    items(list, peek().span);
+    if (bare) {
+      note_mistake(peek().span, fmt::format("expected '{{' after {}, found {}", owner, found()),
+                   "what belongs to it stands in braces: { … }");
+      if (const std::optional<ItemId> only = item()) list.push_back(*only);
+    } else {
+      items(list, peek().span);
+    }
     brace_opens_body_ = in_header;
     place_ = outer_place;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "syntax/foreign_words.h"
 #include "syntax/recursive_parser.h"
 
 namespace tyndall::syntax {
@@ -51,8 +52,9 @@ std::optional<Parser::ItemNode> Parser::not_an_item() {
     fail(peek().span, "'else' without 'if'", "it follows the '}' of an 'if'");
   } else {
     fail(peek().span, fmt::format("expected a statement, found {}", found()),
-         begins_value(kind()) ? "is an operator or a comma missing before it?"
-                              : "statements begin with a word");
+         place_ == BlockPlace::thing && at(TokenKind::less) ? "parameters have names, as in center: (x, y, z)"
+         : begins_value(kind())                             ? "is an operator or a comma missing before it?"
+                                                            : "statements begin with a word");
   }
   return std::nullopt;
 }
@@ -153,6 +155,7 @@ ListRef Parser::parameters() {
 
 // body = ( "medium" | "material" ) name [ parameters ] block
 std::optional<Parser::ItemNode> Parser::body_item() {
+  if (place_ == BlockPlace::thing && !begins_body()) return parameter_without_colon(take_name());
   const bool is_medium = at(TokenKind::kw_medium);
   const BodyKind body_kind = is_medium ? BodyKind::medium : BodyKind::material;
   const std::string_view noun = is_medium ? "medium" : "material";
@@ -303,9 +306,49 @@ std::optional<Parser::ItemNode> Parser::assign_item() {
   return AssignItem{name, expression()};
 }
 
+// True where the value of a parameter stands and its ':' was forgotten.
+bool Parser::value_without_colon() const {
+  static constexpr TokenKind beginnings[] = {TokenKind::number,      TokenKind::color,    TokenKind::less,
+                                             TokenKind::kw_true,     TokenKind::kw_false, TokenKind::minus,
+                                             TokenKind::left_bracket};
+  if (place_ != BlockPlace::thing) return false;
+  if (std::find(std::begin(beginnings), std::end(beginnings), kind()) != std::end(beginnings)) return true;
+  return at(TokenKind::name) &&
+         (kind(1) == TokenKind::right_brace || (is_word(kind(1)) && kind(2) == TokenKind::colon));
+}
+
+Parser::ItemNode Parser::parameter_without_colon(const Name& name) {
+  const bool angle_bracket = at(TokenKind::less);
+  note_mistake(
+      peek().span, fmt::format("expected ':' after '{}', found {}", text(name), found()),
+      fmt::format("a parameter is written {}: {}", text(name), angle_bracket ? "(x, y, z)" : "value"));
+  if (!angle_bracket) return ParameterItem{name, expression()};
+  while (!ends_everything() && !at(TokenKind::greater) && !at(TokenKind::right_brace) && !begins_item(at_))
+    skip_group();
+  take_if(TokenKind::greater);
+  return ParameterItem{name, error_expr()};
+}
+
+// True if `medium` or `material`, which stands here, begins a definition; else it is a parameter's name.
+bool Parser::begins_body() const {
+  std::uint32_t ahead = 2;
+  if (kind(1) == TokenKind::name && kind(ahead) == TokenKind::left_paren) {
+    std::uint32_t open = 0;
+    do {
+      if (kind(ahead) == TokenKind::end_of_file) return true;
+      if (kind(ahead) == TokenKind::left_paren) ++open;
+      if (kind(ahead) == TokenKind::right_paren) --open;
+      ++ahead;
+    } while (open > 0);
+  }
+  return kind(1) != TokenKind::name || kind(ahead) == TokenKind::left_brace ||
+         kind(ahead) == TokenKind::equals;
+}
+
 // thing = name [ name ] [ string ] block
 std::optional<Parser::ItemNode> Parser::thing_item() {
   const Name keyword = take_name();
+  if (value_without_colon()) return parameter_without_colon(keyword);
   std::string owner(text(keyword));
   const bool kind_follows = at(TokenKind::name) && kind(1) != TokenKind::colon &&
                             kind(1) != TokenKind::equals && kind(1) != TokenKind::left_paren;
@@ -328,8 +371,10 @@ std::optional<Parser::ItemNode> Parser::thing_item() {
   }
   if (!at(TokenKind::left_brace) && !file.valid() && !kind_follows &&
       !(is_word(kind()) && kind(1) == TokenKind::colon)) {
-    fail(peek().span, fmt::format("'{}' does nothing here: expected '{{', '(', ':' or '=' after it, found {}",
-                                  owner, found()));
+    fail(peek().span,
+         fmt::format("'{}' does nothing here: expected '{{', '(', ':' or '=' after it, found {}", owner,
+                     found()),
+         std::string(help_for_foreign_word(owner)));
     return std::nullopt;
   }
   const BlockId body = block(BlockPlace::thing, fmt::format("'{}'", owner));

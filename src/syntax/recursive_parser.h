@@ -67,6 +67,9 @@ class Parser {
   std::optional<ItemNode> thing_item();
   std::optional<ItemNode> call_item();
   std::optional<ItemNode> not_an_item();
+  bool value_without_colon() const;
+  ItemNode parameter_without_colon(const Name& name);
+  bool begins_body() const;
   ListRef parameters();
   void after_item(const std::optional<ItemId>& id);
   std::optional<Name> new_name(std::string_view what);
