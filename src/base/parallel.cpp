@@ -5,8 +5,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <new>
-
 namespace tyndall {
 
 int hardware_threads() { return tbb::info::default_concurrency(); }
@@ -25,13 +23,5 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
         tbb::simple_partitioner{});
   });
 }
-
-struct ThreadsLife::Scheduler {
-  tbb::task_scheduler_handle handle{tbb::attach{}};
-};
-
-ThreadsLife::ThreadsLife() : scheduler_(std::make_unique<Scheduler>()) {}
-
-ThreadsLife::~ThreadsLife() { tbb::finalize(scheduler_->handle, std::nothrow); }
 
 }  // namespace tyndall

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 
 namespace tyndall {
 
@@ -14,21 +13,6 @@ int hardware_threads();
 // scratch that this call may use alone. threads: 0 for all. Returns when all calls have returned.
 void parallel_for(std::size_t count, int threads,
                   const std::function<void(std::size_t index, int worker)>& body);
-
-// The life of the program's threads: main holds one, and its end waits until all of them have ended, so that
-// nothing runs any more when the program's own memory is taken down (and a leak checker sees no thread half
-// gone).
-class ThreadsLife {
- public:
-  ThreadsLife();
-  ~ThreadsLife();
-  ThreadsLife(const ThreadsLife&) = delete;
-  ThreadsLife& operator=(const ThreadsLife&) = delete;
-
- private:
-  struct Scheduler;
-  std::unique_ptr<Scheduler> scheduler_;
-};
 
 // How many workers parallel_for(…, threads, …) may number.
 int worker_count(int threads);

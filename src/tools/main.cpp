@@ -2,11 +2,9 @@
 #include <cstdio>
 #include <new>
 
-#include "base/parallel.h"
 #include "tools/commands.h"
 
 int main(int argc, char** argv) {
-  const tyndall::ThreadsLife threads;
   try {
     return static_cast<int>(tyndall::tools::run(argc, argv));
   } catch (const std::bad_alloc&) {
