@@ -111,7 +111,6 @@ double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t
   const double solid_angle = optics::pdf_light(*light_now, x, direction, y, normal);
   if (solid_angle == 0) return 0;
   // The pivot that would lead to y: y itself on a flat light, the centre of a sphere.
-  // The pivot that would lead to y: y itself on a flat light, the centre of a sphere.
   auto pivot = optics::sample_pivot(*light_now, 0.5f, 0.5f);
   if (pivot && optics::pivot_on_surface(*light_now)) pivot = optics::Pivot{y, normal};
   if (method_ == Method::brute_force) return lights_.probability(light) * solid_angle / step_at(segment);

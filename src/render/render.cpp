@@ -97,6 +97,7 @@ class Render {
     for (int i = 0; i < worker_count(options.threads); ++i) {
       workers_.push_back(std::make_unique<Worker>());
       workers_.back()->skips_empty = options.skip_empty;
+      workers_.back()->machine.observe(options.shader_observer);
     }
     for (const Tile& tile : tiles_) {
       CHECK_LE(0, tile.x0);

@@ -12,6 +12,7 @@
 #include "base/source.h"
 #include "compile/compiled_scene.h"
 #include "render/film.h"
+#include "vm/machine.h"
 
 namespace tyndall::render {
 
@@ -35,6 +36,8 @@ constexpr bool by_ratio(Transmittance method) {
 struct RenderOptions {
   int threads = 0;         // 0: all
   bool skip_empty = true;  // leave out what is proven to be empty; false to measure what that saves
+  vm::RunObserver* shader_observer =
+      nullptr;  // of every batch of a shader, by the worker's thread; to measure
   Method method = Method::decoupled;
   Distance distance = Distance::product;  // of the decoupled method; of tracking as far as it has them
   Transmittance transmittance = Transmittance::march;

@@ -2,6 +2,7 @@
 #include "vm/machine.h"
 
 #include <algorithm>
+#include <chrono>
 #include <unordered_map>
 
 #include "base/check.h"
@@ -147,6 +148,15 @@ void Machine::run(const Program& program, const BatchInputs& inputs, std::size_t
   CHECK_EQ(outputs.size(), program.outputs.size());
   ++counters_.runs;
   if (lanes == 0) return;
+  if (!observer_) return run_chunks(program, inputs, lanes, outputs);
+  const auto begin = std::chrono::steady_clock::now();
+  run_chunks(program, inputs, lanes, outputs);
+  observer_->ran(program, inputs, lanes,
+                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+void Machine::run_chunks(const Program& program, const BatchInputs& inputs, std::size_t lanes,
+                         std::span<float* const> outputs) {
   Prepared& prepared = memory_->prepared(program);
   prepared.set_uniform_inputs(program, inputs);
   const std::size_t vector = simd_lanes();

@@ -23,6 +23,14 @@ struct BatchInputs {
   const float* operator[](Input input) const { return lanes[static_cast<std::size_t>(input)]; }
 };
 
+// Is told of every batch of a machine, for measuring; called from the machine's thread after the batch.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  // `seconds`: what the batch took.
+  virtual void ran(const Program& program, const BatchInputs& inputs, std::size_t lanes, double seconds) = 0;
+};
+
 // One thread's machine: owns its registers (grown on demand, then reused) and its counters.
 class Machine {
  public:
@@ -36,6 +44,8 @@ class Machine {
   // overlap neither inputs nor each other.
   void run(const Program& program, const BatchInputs& inputs, std::size_t lanes,
            std::span<float* const> outputs);
+  // Null: none. It must outlive the runs that follow.
+  void observe(RunObserver* observer) { observer_ = observer; }
 
   static constexpr std::size_t max_lanes = 256;
 
@@ -51,8 +61,12 @@ class Machine {
 
  private:
   struct Memory;
+  void run_chunks(const Program& program, const BatchInputs& inputs, std::size_t lanes,
+                  std::span<float* const> outputs);
+
   std::unique_ptr<Memory> memory_;
   Counters counters_;
+  RunObserver* observer_ = nullptr;
 };
 
 // One operation on single numbers, in double (noise and random in float): constant folding in scene code. Not

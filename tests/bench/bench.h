@@ -7,6 +7,10 @@ namespace tyndall {
 // when a scene cannot be read.
 bool bench_scenes(double seconds);
 
+// Time of a shader for each segment of a march inside of renders of the scenes, against the same points in
+// batches of 256. False when a scene cannot be read or a target is missed.
+bool bench_batches();
+
 // Bounds against points, grids of a cloud, and what skipping empty space saves.
 void bench_bounds(double seconds_a_row);
 
