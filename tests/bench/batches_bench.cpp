@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "bench.h"
@@ -22,12 +23,25 @@ namespace {
 
 constexpr double target = 1.3;
 
+// The programs of media, by fingerprint: those of materials are run for points on surfaces.
+using Programs = std::unordered_set<std::uint64_t>;
+
+Programs programs_of_media(const scene::Scene& scene) {
+  Programs programs;
+  for (const scene::Medium& medium : scene.media)
+    programs.insert({medium.full.fingerprint, medium.extinction.fingerprint});
+  return programs;
+}
+
 // Adds up what batches took.
 struct Timer : vm::RunObserver {
+  explicit Timer(const Programs& of_media) : programs(of_media) {}
+  const Programs& programs;
   double seconds = 0;
   std::uint64_t lanes = 0, batches = 0;
 
-  void ran(const vm::Program&, const vm::BatchInputs&, std::size_t count, double took) override {
+  void ran(const vm::Program& program, const vm::BatchInputs&, std::size_t count, double took) override {
+    if (!programs.contains(program.fingerprint)) return;
     seconds += took;
     lanes += count;
     ++batches;
@@ -37,10 +51,12 @@ struct Timer : vm::RunObserver {
 // Gathers the lanes of each program, and runs them again when there are 256.
 class Refiller : public vm::RunObserver {
  public:
+  explicit Refiller(const Programs& of_media) : programs_(of_media) {}
   double seconds = 0;
   std::uint64_t lanes = 0;
 
   void ran(const vm::Program& program, const vm::BatchInputs& inputs, std::size_t count, double) override {
+    if (!programs_.contains(program.fingerprint)) return;
     Gathered& g = gathered_[program.fingerprint];
     for (const vm::Input input : program.inputs) {
       std::vector<float>& row = g.rows[static_cast<std::size_t>(input)];
@@ -81,6 +97,7 @@ class Refiller : public vm::RunObserver {
     g.lanes -= full;
   }
 
+  const Programs& programs_;
   vm::Machine machine_;
   std::unordered_map<std::uint64_t, Gathered> gathered_;
   std::vector<float> outputs_;
@@ -113,16 +130,17 @@ bool bench_batches() {
     scene->settings.height = 54;
     const compile::CompiledScene world = compile::compile(std::move(*scene));
     if (!has_varying_medium(world)) continue;
+    const Programs programs = programs_of_media(world.scene);
     std::vector<double> ratios, times, sizes;
     for (int round = 0; round < 5; ++round) {
       render::RenderOptions options;
       options.threads = 1;
       options.sample_count = 1;
       options.first_sample = round;
-      Timer timer;
+      Timer timer(programs);
       options.shader_observer = &timer;
       render::render(world, options);
-      Refiller refiller;
+      Refiller refiller(programs);
       options.shader_observer = &refiller;
       render::render(world, options);
       const double one = timer.seconds / static_cast<double>(timer.lanes);
