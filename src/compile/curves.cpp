@@ -48,9 +48,13 @@ Bounds around(const Vec3d& a, double radius_a, const Vec3d& b, double radius_b) 
 
 }  // namespace
 
-CompiledCurves::CompiledCurves(const scene::StrandSet& strands)
-    : strands_(static_cast<std::uint32_t>(strands.strands())), bounds_{Vec3d(infinity), Vec3d(-infinity)} {
-  for (std::uint32_t s = 0; s < strands_; ++s) add_strand(strands, s);
+CompiledCurves::CompiledCurves(std::span<const scene::StrandSet* const> sets)
+    : bounds_{Vec3d(infinity), Vec3d(-infinity)} {
+  for (const scene::StrandSet* set : sets)
+    for (std::uint32_t s = 0; s < set->strands(); ++s) {
+      add_strand(*set, s);
+      place_in_set_.push_back((s + 0.5) / static_cast<double>(set->strands()));
+    }
   std::vector<Bounds> boxes;
   for (std::uint32_t i = 0; i + 1 < nodes_.size(); ++i) {
     if (ends(i)) continue;
@@ -70,8 +74,9 @@ CompiledCurves::CompiledCurves(const scene::StrandSet& strands)
   if (boxes.size() > few_pieces) tree_.emplace(boxes);
 }
 
-void CompiledCurves::add_strand(const scene::StrandSet& strands, std::uint32_t strand) {
-  const std::size_t begin = strands.begin[strand], count = strands.begin[strand + 1] - begin;
+void CompiledCurves::add_strand(const scene::StrandSet& strands, std::uint32_t strand_of_set) {
+  const std::size_t begin = strands.begin[strand_of_set], count = strands.begin[strand_of_set + 1] - begin;
+  const auto strand = static_cast<std::uint32_t>(place_in_set_.size());
   // Beyond its ends a strand goes on straight.
   const auto point = [&](std::ptrdiff_t i) {
     const auto last = static_cast<std::ptrdiff_t>(count) - 1;
@@ -197,7 +202,7 @@ std::optional<ShapeHit> CompiledCurves::intersect(const Vec3d& origin, const Vec
   return ShapeHit{best->t,
                   best->position,
                   best->normal,
-                  {(node.strand + 0.5) / strands_, static_cast<double>(best->along)},
+                  {place_in_set_[node.strand], static_cast<double>(best->along)},
                   best->shading_normal};
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "compile/bounds_tree.h"
@@ -15,9 +16,10 @@ namespace tyndall::compile {
 
 class CompiledCurves {
  public:
-  explicit CompiledCurves(const scene::StrandSet& strands);
+  // All strands of these sets, in their order; none: what is never met.
+  explicit CompiledCurves(std::span<const scene::StrandSet* const> sets);
 
-  // The nearest entry with t in (0, t_max). uv: the strand's place in the list, and the part of its points
+  // The nearest entry with t in (0, t_max). uv: the strand's place in its set, and the part of its points
   // from root to tip, each in [0, 1].
   std::optional<ShapeHit> intersect(const Vec3d& origin, const Vec3d& direction, double t_max) const;
   const Bounds& bounds() const { return bounds_; }
@@ -35,7 +37,7 @@ class CompiledCurves {
     Vec3d position, normal, shading_normal;  // normals of any length but zero
     float along = 0;
   };
-  void add_strand(const scene::StrandSet& strands, std::uint32_t strand);
+  void add_strand(const scene::StrandSet& strands, std::uint32_t strand_of_set);
   // Which way the plane between two pieces faces at a node: the mean of their directions.
   Vec3d joint(std::size_t node) const;
   bool begins(std::size_t node) const { return node == 0 || nodes_[node - 1].strand != nodes_[node].strand; }
@@ -48,7 +50,7 @@ class CompiledCurves {
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> pieces_;  // the first node of each
-  std::uint32_t strands_ = 0;
+  std::vector<double> place_in_set_;   // of each strand
   Bounds bounds_;
   std::optional<BoundsTree> tree_;
 };

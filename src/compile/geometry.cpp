@@ -4,6 +4,7 @@
 
 #include "base/numerics.h"
 #include "base/overloaded.h"
+#include "compile/strand_groups.h"
 
 namespace tyndall::compile {
 
@@ -45,7 +46,7 @@ Geometry::Geometry(const scene::Scene& scene, const Features& features, const Ve
                    std::span<const optics::Light> lights, std::span<const std::uint32_t> glows,
                    std::span<const CompiledVolume> volumes)
     : meshes_(scene.meshes.begin(), scene.meshes.end()),
-      curves_(scene.strand_sets.begin(), scene.strand_sets.end()),
+      curves_(group_strands(scene, glows)),
       world_(parts(), features.normals),
       volumes_(volumes),
       first_shape_(scene.shapes.data()) {

@@ -51,10 +51,14 @@ void Group::add(std::span<const scene::ShapeInstance> surfaces,
                 std::span<const std::uint32_t> glows) {
   offset_ = offset;
   surfaces_.reserve(surfaces_.size() + surfaces.size());
-  for (std::size_t i = 0; i < surfaces.size(); ++i)
-    surfaces_.push_back({inverse_of(group_from_object(surfaces[i].world_from_object, no_index)), &surfaces[i],
-                         no_index, glows.empty() ? no_index : glows[i]});
-  for (const auto& m : moving) surfaces_[m.index].motion = &m.keys;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const bool moves = !moving.empty() && moving.front().index == i;
+    if (!strands_went_elsewhere(surfaces[i].shape, parts_))
+      surfaces_.push_back({inverse_of(group_from_object(surfaces[i].world_from_object, no_index)),
+                           &surfaces[i], no_index, glows.empty() ? no_index : glows[i],
+                           moves ? &moving.front().keys : nullptr});
+    if (moves) moving = moving.subspan(1);
+  }
 }
 
 void Group::add_light(const scene::ShapeInstance& surface, std::uint32_t light,

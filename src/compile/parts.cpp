@@ -27,6 +27,11 @@ std::optional<Bounds> bounds(const scene::Shape& shape, const ShapeParts& parts)
   return bounds(shape);
 }
 
+bool strands_went_elsewhere(const scene::Shape& shape, const ShapeParts& parts) {
+  const auto* curves = std::get_if<scene::Curves>(&shape);
+  return curves && parts.curves[curves->strands.index].pieces() == 0;
+}
+
 bool is_sheet(const scene::Shape& shape, const ShapeParts& parts) {
   if (const auto* mesh = std::get_if<scene::Mesh>(&shape)) return !parts.meshes[mesh->mesh.index].closed();
   return std::holds_alternative<scene::Plane>(shape) || std::holds_alternative<scene::Quad>(shape) ||

@@ -22,6 +22,8 @@ std::optional<ShapeHit> intersect(const scene::Shape& shape, const ShapeParts& p
 void inside(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin, const Vec3d& direction,
             double t_max, std::vector<Intervald>& out);
 std::optional<Bounds> bounds(const scene::Shape& shape, const ShapeParts& parts);
+// Whether curves have no strands of their own: others near them have them (strand_groups.h).
+bool strands_went_elsewhere(const scene::Shape& shape, const ShapeParts& parts);
 // Whether the shape has no inside.
 bool is_sheet(const scene::Shape& shape, const ShapeParts& parts);
 

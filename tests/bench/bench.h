@@ -20,6 +20,10 @@ bool bench_lights();
 // Fire sampled as light against fire that is met by chance, at equal time. False when a scene cannot be read.
 bool bench_fire();
 
+// Hair with opacity in smoke: all crossings in one march's distance pdf against one decision at each, at
+// equal time. False when a scene cannot be read.
+bool bench_hair();
+
 // `multiple_scattering: approximate` against the full solution: error and time on clouds and smoke. False
 // when a scene cannot be read.
 bool bench_scattering();

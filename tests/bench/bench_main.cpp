@@ -26,6 +26,7 @@ constexpr std::array benchmarks{
     Benchmark{"bounds", true, [](double seconds) { return bench_bounds(seconds), true; }},
     Benchmark{"lights", true, [](double) { return bench_lights(); }},
     Benchmark{"fire", false, [](double) { return bench_fire(); }},
+    Benchmark{"hair", false, [](double) { return bench_hair(); }},
     Benchmark{"scattering", false, [](double) { return bench_scattering(); }},
     Benchmark{"transmittance", false, [](double) { return bench_transmittance(), true; }},
     Benchmark{"sampling", false, [](double) { return bench_sampling(); }},

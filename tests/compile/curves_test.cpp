@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
 #include "base/numerics.h"
+#include "compile/compiled_scene.h"
+#include "compile/strand_groups.h"
 
 namespace tyndall::compile {
 namespace {
@@ -53,6 +56,11 @@ struct Beads {
   }
 };
 
+CompiledCurves compiled(const scene::StrandSet& set) {
+  const std::array<const scene::StrandSet*, 1> sets{&set};
+  return CompiledCurves(sets);
+}
+
 scene::StrandSet wavy() {
   return strand({{0, 0, 0}, {0.3, 0.5, 0.1}, {-0.2, 0.9, 0.3}, {0.1, 1.4, -0.2}, {0.6, 1.5, 0}},
                 {0.05, 0.06, 0.04, 0.03, 0.01});
@@ -62,7 +70,7 @@ void expect_like_beads(const scene::StrandSet& s, const Vec3d& offset, double sc
   scene::StrandSet placed = s;
   for (Vec3d& p : placed.points) p = offset + p * scale;
   for (double& r : placed.radii) r *= scale;
-  const CompiledCurves curves(placed);
+  const CompiledCurves curves = compiled(placed);
   const Beads beads(s);
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -102,7 +110,8 @@ TEST(Curves, MayBeTiny) { expect_like_beads(wavy(), {}, 1e-6); }
 TEST(Curves, MayBeFarAway) { expect_like_beads(wavy(), {1e7, -1e7, 3e6}, 1); }
 
 TEST(Curves, StraightOnesAreCylinders) {
-  const CompiledCurves curves(strand({{0, 0, 0}, {0, 0, 1}, {0, 0, 3}, {0, 0, 4}}, {0.2, 0.2, 0.2, 0.2}));
+  const CompiledCurves curves =
+      compiled(strand({{0, 0, 0}, {0, 0, 1}, {0, 0, 3}, {0, 0, 4}}, {0.2, 0.2, 0.2, 0.2}));
   EXPECT_EQ(curves.pieces(), 3u);
   const scene::Shape cylinder = scene::Cylinder{{0, 0, 0}, {0, 0, 4}, 0.2};
   std::mt19937_64 random(2);
@@ -127,7 +136,7 @@ TEST(Curves, StraightOnesAreCylinders) {
 TEST(Curves, AreEnteredOnceByALineAcross) {
   std::vector<Vec3d> points;
   for (int i = 0; i <= 8; ++i) points.push_back({std::sin(i * 0.2), std::cos(i * 0.2), 0});
-  const CompiledCurves curves(strand(points, std::vector<double>(9, 0.02)));
+  const CompiledCurves curves = compiled(strand(points, std::vector<double>(9, 0.02)));
   EXPECT_GT(curves.pieces(), 8u);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -146,8 +155,71 @@ TEST(Curves, AreEnteredOnceByALineAcross) {
 }
 
 TEST(Curves, WithoutThicknessCannotBeMet) {
-  const CompiledCurves curves(strand({{0, 0, 0}, {0, 1, 0}}, {0, 0}));
+  const CompiledCurves curves = compiled(strand({{0, 0, 0}, {0, 1, 0}}, {0, 0}));
   EXPECT_FALSE(curves.intersect({0, 0.5, 1}, {0, 0, -1}, 10));
+}
+
+// Random short hairs of one set, or of one set each with a shape each.
+scene::Scene hairs(bool one_by_one, scene::MaterialId material) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  scene::Scene scene;
+  scene::StrandSet all{{}, {}, {0}};
+  for (int i = 0; i < 50; ++i) {
+    scene::StrandSet one{{}, {}, {0, 3}};
+    for (int k = 0; k < 3; ++k) one.points.push_back({unit(random), unit(random), unit(random)});
+    one.radii.assign(3, 0.02);
+    all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+    all.radii.insert(all.radii.end(), one.radii.begin(), one.radii.end());
+    all.begin.push_back(static_cast<std::uint32_t>(all.points.size()));
+    if (one_by_one) scene.strand_sets.push_back(std::move(one));
+  }
+  if (!one_by_one) scene.strand_sets.push_back(std::move(all));
+  for (std::size_t i = 0; i < scene.strand_sets.size(); ++i)
+    scene.shapes.push_back({scene::Curves{scene::StrandSetId(i)}, {}, material});
+  return scene;
+}
+
+// Hairs that a loop makes one by one are the same curves as one list of them.
+TEST(StrandGroups, OneByOneIsAsOneList) {
+  const auto loop = group_strands(hairs(true, scene::MaterialId(0)), {}),
+             list = group_strands(hairs(false, scene::MaterialId(0)), {});
+  ASSERT_EQ(loop.size(), 50u);
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(loop[0].pieces(), list[0].pieces());
+  for (std::size_t i = 1; i < loop.size(); ++i) EXPECT_EQ(loop[i].pieces(), 0u);
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int met = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d origin{unit(random), unit(random), -1};
+    const Vec3d direction{unit(random) - 0.5, unit(random) - 0.5, 1};
+    const auto a = loop[0].intersect(origin, direction, infinity),
+               b = list[0].intersect(origin, direction, infinity);
+    ASSERT_EQ(a.has_value(), b.has_value());
+    if (!a) continue;
+    ++met;
+    EXPECT_EQ(a->t, b->t);
+    EXPECT_EQ(a->uv.x, 0.5);  // the only strand of its set
+    EXPECT_EQ(a->uv.y, b->uv.y);
+  }
+  EXPECT_GT(met, 200);
+}
+
+// What differs, moves or glows stays by itself.
+TEST(StrandGroups, JoinsOnlyWhatIsAlike) {
+  scene::Scene scene = hairs(true, scene::MaterialId(0));
+  scene.shapes[10].material = scene::MaterialId(1);
+  scene.shapes[20].world_from_object = Transform::translate({1, 0, 0});
+  scene.shapes[30].visible = false;
+  scene.motion.shapes.push_back({40, {}});
+  std::vector<std::uint32_t> glows(scene.shapes.size(), no_index);
+  glows[45] = 0;
+  const auto curves = group_strands(scene, glows);
+  std::vector<std::size_t> heads;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    if (curves[i].pieces() > 0) heads.push_back(i);
+  EXPECT_EQ(heads, (std::vector<std::size_t>{0, 10, 11, 20, 21, 30, 31, 40, 41, 45, 46}));
 }
 
 }  // namespace
