@@ -148,6 +148,8 @@ std::optional<CompiledCurves::Entry> CompiledCurves::enter(std::uint32_t i, cons
     const double root = std::sqrt(discriminant), q = -(qb + std::copysign(root, qb));
     if (qa != 0) roots[0] = q / qa;
     if (q != 0) roots[1] = qc / q;
+  } else if (!begins(i) && !ends(i + 1)) {
+    return std::nullopt;  // most pieces whose boxes are met
   }
   const Vec3d joint_a = joint(i), joint_b = joint(i + 1);
   for (const double s : roots) {
