@@ -5,9 +5,11 @@
 #include <string>
 #include <string_view>
 
+#include "resolve/resolve.h"
 #include "support/law_scenes.h"
 #include "support/measure.h"
 #include "support/scene_builder.h"
+#include "syntax/parser.h"
 
 namespace tyndall::support {
 namespace {
@@ -89,6 +91,50 @@ TEST(Strategies, Agree) {
         }
       }
     }
+}
+
+scene::Scene fog_of(const std::string& body, bool fold) {
+  Sources sources;
+  Diagnostics diagnostics;
+  syntax::Symbols symbols;
+  const SourceId source = sources.add("fog.tyn", R"(
+render { resolution: (8, 8)  samples: 64  step: 0.1  bounces: 3 }
+camera perspective { from: (0, 0, 5)  to: (0, 0, 0)  fov: 35deg }
+volume { in: sphere { radius: 1 }  medium: { )" + body +
+                                                     R"( } }
+light sphere { center: (2, 2, 2)  radius: 0.5  radiance: 100 }
+light environment { radiance: 0.2 }
+)");
+  const syntax::TokenList tokens = syntax::lex(sources, source, diagnostics);
+  const syntax::SyntaxTree tree = syntax::parse(sources, source, tokens, symbols, diagnostics);
+  resolve::Options options;
+  options.shader.fold = fold;
+  scene::Scene scene = resolve::resolve(tree, sources, symbols, options, diagnostics);
+  EXPECT_TRUE(diagnostics.all().empty()) << render_text(diagnostics, sources, false);
+  return scene;
+}
+
+// One medium written as a constant, as a shader that folds to it, and as one that is computed at every point
+// with folding off: one picture.
+TEST(OneMedium, ThreeWaysOfWritingItOnePicture) {
+  const auto computed = [](const std::string& half) {
+    return "let half = smoothstep(0, 1, " + half + R"()
+    var sum = 0
+    for i in 1..4 { sum = sum + i * half }
+    density = if sum > 4 then sum / 5 else sqrt(-1)
+    albedo = mix((1, 1, 1), (0.8, 0.6, 0.4), half)
+    extinction = (2, 1.5, 1)
+    phase = hg(0.4))";
+  };
+  const scene::Scene written = fog_of(
+                         "density = 1  albedo = (0.9, 0.8, 0.7)  extinction = (2, 1.5, 1)  phase = hg(0.4)",
+                         true),
+                     folded = fog_of(computed("0.5"), true), kept = fog_of(computed("0.5 + 0 * p.x"), false);
+  EXPECT_TRUE(folded.media[0].full.lane_code.empty());
+  EXPECT_FALSE(kept.media[0].full.lane_code.empty());
+  const auto a = measure(written).whole(), b = measure(folded).whole();
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(b.mean[c], a.mean[c], 1e-5 * a.mean[c]) << c;
+  expect_same(measure(kept).whole(), a, 0, 0.01, "computed at every point");
 }
 
 // One medium in closed form and the same as a shader that is marched: one picture (invariant 3).
