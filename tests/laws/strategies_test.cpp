@@ -5,11 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "resolve/resolve.h"
 #include "support/law_scenes.h"
 #include "support/measure.h"
 #include "support/scene_builder.h"
-#include "syntax/parser.h"
+#include "support/scene_text.h"
 
 namespace tyndall::support {
 namespace {
@@ -94,24 +93,17 @@ TEST(Strategies, Agree) {
 }
 
 scene::Scene fog_of(const std::string& body, bool fold) {
-  Sources sources;
-  Diagnostics diagnostics;
-  syntax::Symbols symbols;
-  const SourceId source = sources.add("fog.tyn", R"(
-render { resolution: (8, 8)  samples: 64  step: 0.1  bounces: 3 }
-camera perspective { from: (0, 0, 5)  to: (0, 0, 0)  fov: 35deg }
-volume { in: sphere { radius: 1 }  medium: { )" + body +
-                                                     R"( } }
-light sphere { center: (2, 2, 2)  radius: 0.5  radiance: 100 }
-light environment { radiance: 0.2 }
-)");
-  const syntax::TokenList tokens = syntax::lex(sources, source, diagnostics);
-  const syntax::SyntaxTree tree = syntax::parse(sources, source, tokens, symbols, diagnostics);
   resolve::Options options;
   options.shader.fold = fold;
-  scene::Scene scene = resolve::resolve(tree, sources, symbols, options, diagnostics);
-  EXPECT_TRUE(diagnostics.all().empty()) << render_text(diagnostics, sources, false);
-  return scene;
+  return scene_of(R"(
+render { resolution: (8, 8)  samples: 64  step: 0.1  bounces: 3 }
+camera perspective { from: (0, 0, 5)  to: (0, 0, 0)  fov: 35deg }
+volume { in: sphere { radius: 1 }  medium: { )" +
+                      body + R"( } }
+light sphere { center: (2, 2, 2)  radius: 0.5  radiance: 100 }
+light environment { radiance: 0.2 }
+)",
+                  options);
 }
 
 // One medium written as a constant, as a shader that folds to it, and as one that is computed at every point

@@ -4,24 +4,13 @@
 #include <string>
 
 #include "base/numerics.h"
-#include "resolve/resolve.h"
 #include "support/measure.h"
-#include "syntax/parser.h"
+#include "support/scene_text.h"
 
 namespace tyndall::render {
 namespace {
 
-scene::Scene scene_of(const std::string& text) {
-  Sources sources;
-  Diagnostics diagnostics;
-  syntax::Symbols symbols;
-  const SourceId source = sources.add("motion.tyn", text);
-  const syntax::TokenList tokens = syntax::lex(sources, source, diagnostics);
-  const syntax::SyntaxTree tree = syntax::parse(sources, source, tokens, symbols, diagnostics);
-  scene::Scene scene = resolve::resolve(tree, sources, symbols, {}, diagnostics);
-  EXPECT_FALSE(diagnostics.has_errors()) << render_text(diagnostics, sources, false);
-  return scene;
-}
+using support::scene_of;
 
 // The shutter is open for half a second.
 const std::string open_shutter = "animation { fps: 1  frames: 0..1  shutter: 180deg }\n";
