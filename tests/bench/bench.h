@@ -34,6 +34,7 @@ void bench_transmittance();
 // The tables of docs/sampling.md, and its pictures, which are written where they belong. False when a scene
 // cannot be read or a picture not written.
 bool bench_sampling();
+bool bench_steps();
 bool write_sampling_pictures();
 
 // Prints docs/verification.md. False when a line fails.

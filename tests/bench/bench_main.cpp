@@ -30,6 +30,7 @@ constexpr std::array benchmarks{
     Benchmark{"scattering", false, [](double) { return bench_scattering(); }},
     Benchmark{"transmittance", false, [](double) { return bench_transmittance(), true; }},
     Benchmark{"sampling", false, [](double) { return bench_sampling(); }},
+    Benchmark{"steps", false, [](double) { return bench_steps(); }},
     Benchmark{"sampling-pictures", false, [](double) { return write_sampling_pictures(); }},
     Benchmark{"verify", false, [](double) { return print_verification(); }},
     Benchmark{"scenes", true, [](double seconds) { return bench_scenes(seconds); }},

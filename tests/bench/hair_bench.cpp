@@ -16,7 +16,7 @@ namespace {
 // 100,000 hairs: 100 placements of a tuft of 1,000.
 constexpr const char* hairs_in_smoke = R"(
 let cover = 1
-render { resolution: (96, 54)  samples: 4  bounces: 4 }
+render { resolution: (64, 36)  samples: 4  bounces: 4 }
 camera perspective { from: (0, 1.3, 3.4)  to: (0, 0.55, 0)  fov: 40deg }
 object tuft {
   for i in 0..<1000 {
@@ -41,7 +41,7 @@ light environment { radiance: 0.1 }
 }  // namespace
 
 bool bench_hair() {
-  fmt::print("100,000 hairs in smoke, 96x54\n{:<10} {:>26} {:>26} {:>10}\n", "opacity",
+  fmt::print("100,000 hairs in smoke, 64x36\n{:<10} {:>26} {:>26} {:>10}\n", "opacity",
              "by chance: seconds, relMSE", "in the pdf: both", "gain");
   for (const char* cover : {"1", "0.6", "0.2"}) {
     std::optional<scene::Scene> scene = read_scene("hairs", hairs_in_smoke, {{"cover", cover}});
