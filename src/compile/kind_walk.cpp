@@ -41,7 +41,8 @@ KindWalk::KindWalk(const MajorantGrid& grid, const Transform& medium_from_render
 
 bool KindWalk::next(KindSegment& out) {
   if (!(t_ < end_)) return false;
-  out = {t_, t_, grid_.kind(level_, index_, scratch_)};
+  const MajorantGrid::Kinds kinds = grid_.kinds(level_);
+  out = {t_, t_, kinds.at(index_, scratch_)};
   std::size_t begin = index_;
   // What changes from group to group stays in registers.
   Axis x = axes_[0], y = axes_[1], z = axes_[2];
@@ -65,7 +66,7 @@ bool KindWalk::next(KindSegment& out) {
       cross(z);
     }
     if (!(t < end_)) break;
-    const CellKind kind = grid_.kind(level_, index, scratch_);
+    const CellKind kind = kinds.at(index, scratch_);
     if (kind == out.kind && (kind != CellKind::uniform || grid_.same_values(level_, begin, index, scratch_)))
       continue;
     if (t > out.t0) break;

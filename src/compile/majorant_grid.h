@@ -106,11 +106,24 @@ class MajorantGrid {
     const std::uint32_t a_brick = brick_side >> level;
     return {bricks_[0] * a_brick, bricks_[1] * a_brick, bricks_[2] * a_brick};
   }
-  // What is proven of all of a group's cells together.
-  CellKind kind(int level, std::size_t group, BoundsScratch& scratch) const {
-    const std::uint8_t known = kinds_[static_cast<std::size_t>(level)][group].load(std::memory_order_relaxed);
-    return known != unknown ? static_cast<CellKind>(known) : make_kind(level, group, scratch);
-  }
+  // What is proven of all of a group's cells together, in a look at a level's groups.
+  class Kinds {
+   public:
+    CellKind at(std::size_t group, BoundsScratch& scratch) const {
+      const std::uint8_t known = known_[group].load(std::memory_order_relaxed);
+      return known != unknown ? static_cast<CellKind>(known) : grid_->make_kind(level_, group, scratch);
+    }
+
+   private:
+    friend class MajorantGrid;
+    Kinds(const MajorantGrid* grid, int level)
+        : grid_(grid), known_(grid->kinds_[static_cast<std::size_t>(level)].data()), level_(level) {}
+
+    const MajorantGrid* grid_;
+    const std::atomic<std::uint8_t>* known_;  // does not move
+    int level_;
+  };
+  Kinds kinds(int level) const { return {this, level}; }
   // Whether two uniform groups have the same bounds.
   bool same_values(int level, std::size_t a, std::size_t b, BoundsScratch& scratch) const;
   // The share of boxes of block_side cells, one in the middle of each brick, that are proved empty or

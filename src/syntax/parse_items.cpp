@@ -331,11 +331,13 @@ Parser::ItemNode Parser::parameter_without_colon(const Name& name) {
 
 // True if `medium` or `material`, which stands here, begins a definition; else it is a parameter's name.
 bool Parser::begins_body() const {
+  // In tokens: brackets that are never closed must not be read to the end again and again.
+  constexpr std::uint32_t furthest = 500;
   std::uint32_t ahead = 2;
   if (kind(1) == TokenKind::name && kind(ahead) == TokenKind::left_paren) {
     std::uint32_t open = 0;
     do {
-      if (kind(ahead) == TokenKind::end_of_file) return true;
+      if (kind(ahead) == TokenKind::end_of_file || ahead > furthest) return true;
       if (kind(ahead) == TokenKind::left_paren) ++open;
       if (kind(ahead) == TokenKind::right_paren) --open;
       ++ahead;

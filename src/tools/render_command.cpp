@@ -191,7 +191,7 @@ ExitStatus finish(const RenderArguments& arguments, LoadedScene& loaded, const s
     if (!failure.empty()) return fail(arguments, failure);
   }
 
-  report_bad_values(arguments, result.statistics, loaded.diagnostics);
+  report_run_problems(arguments, result.statistics, loaded.diagnostics);
   print_diagnostics(loaded.diagnostics, loaded.sources);
   if (arguments.profile) print_result(profile_text(programs_of(scene, result.statistics), loaded.sources));
   if (arguments.json) {

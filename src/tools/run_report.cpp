@@ -133,7 +133,7 @@ nlohmann::json statistics_json(const scene::Scene& scene, const std::string& sce
   return result;
 }
 
-void report_bad_values(const RenderArguments& arguments, const render::Statistics& statistics,
+void report_run_problems(const RenderArguments& arguments, const render::Statistics& statistics,
                        Diagnostics& diagnostics) {
   const auto report = [&](Span span, std::string message, std::string help) {
     if (arguments.strict) {
