@@ -203,6 +203,17 @@ std::optional<Parser::ItemNode> Parser::place_item() {
 // include = "include" expression
 std::optional<Parser::ItemNode> Parser::include_item() {
   take();
+  std::uint32_t ahead = 0;  // tokens of the line
+  while (kind(ahead) != TokenKind::end_of_file && (ahead == 0 || !first_on_line(at_ + ahead))) ++ahead;
+  if (at(TokenKind::name) && ahead > 2 && kind(ahead - 2) == TokenKind::dot &&
+      text(peek(ahead - 1)) == "tyn") {
+    const std::uint32_t first = at_;
+    at_ += ahead;
+    const Span file = span_from(first);
+    note_mistake(file, "the name of a file stands in quotes",
+                 fmt::format("write include \"{}\"", source_text_.substr(file.begin, file.end - file.begin)));
+    return IncludeItem{error_expr()};
+  }
   return IncludeItem{expression()};
 }
 
