@@ -14,8 +14,9 @@ std::string_view help_for_foreign_word(std::string_view word) {
       "medium's density is cut by a function";
   static constexpr std::string_view material = "write material: { base_color = … } in the shape";
   static constexpr std::string_view look = "write camera perspective { from: … to: … fov: … }";
-  static constexpr std::string_view volume = "write volume { in: sphere { … } medium: { density = … } }";
-  static constexpr std::string_view nothing_to_begin = "leave it out: statements may stand in any order";
+  static constexpr std::string_view volume =
+      "write volume { in: sphere { … } medium: { density = … albedo = … } }";
+  static constexpr std::string_view nothing_to_begin = "leave it out: the whole file is the scene";
   static constexpr std::string_view transform =
       "write transform: translate(…) in the thing, or in a group { … } around";
   static constexpr Row rows[] = {

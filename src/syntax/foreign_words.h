@@ -5,7 +5,7 @@
 
 namespace tyndall::syntax {
 
-// What is written for a statement of POV-Ray, PBRT or Mitsuba in this language; empty for any other word.
+// What is written for a statement of POV-Ray or PBRT in this language; empty for any other word.
 std::string_view help_for_foreign_word(std::string_view word);
 
 }  // namespace tyndall::syntax

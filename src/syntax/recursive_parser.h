@@ -66,15 +66,18 @@ class Parser {
   std::optional<ItemNode> assign_item();
   std::optional<ItemNode> thing_item();
   std::optional<ItemNode> call_item();
-  std::optional<ItemNode> not_an_item();
-  bool value_without_colon() const;
-  ItemNode parameter_without_colon(const Name& name);
-  bool begins_body() const;
   ListRef parameters();
   void after_item(const std::optional<ItemId>& id);
   std::optional<Name> new_name(std::string_view what);
   ExprId defined_value(const Name& name);
   ExprId header_value();
+
+  // parse_mistakes.cpp
+  std::optional<ItemNode> not_an_item();
+  bool value_without_colon() const;
+  ItemNode parameter_without_colon(const Name& name);
+  bool begins_body() const;
+  std::optional<ItemNode> include_without_quotes();
 
   // parse_operators.cpp
   ExprId expression();

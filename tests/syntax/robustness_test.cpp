@@ -81,7 +81,8 @@ TEST(Robustness, FiveMegabytesOnOneLine) {
 
 TEST(Robustness, AMegabyteOfMistakes) {
   for (const char* piece :
-       {"( ", "} ", "a ", "\"", "let ", "1 2 ", "# ", "\"{", "/* ", "{ ", ": = ", "\xff ", "a ( "}) {
+       {"( ", "} ", "a ", "\"", "let ", "1 2 ", "# ", "\"{", "/* ", "{ ", ": = ", "\xff ", "a ( ",
+        "include a ; ", "include a.", "a { medium b(\n", "a { b 1 ", "if a b { ", "a { b < "}) {
     std::string text;
     while (text.size() < 1'000'000) text += piece;
     const Reading r(text);
