@@ -14,7 +14,8 @@ std::optional<Transform> Transform::inverse() const {
 }
 
 Vec3d Transform::normal(const Vec3d& n) const {
-  // The cofactor matrix is det * inverse transpose; its sign is mended so that mirrors keep the normal's side.
+  // The cofactor matrix is det * inverse transpose; its sign is mended so that mirrors keep the normal's
+  // side.
   const Vec3d mapped = cross(y, z) * n.x + cross(z, x) * n.y + cross(x, y) * n.z;
   return determinant() < 0 ? -mapped : mapped;
 }

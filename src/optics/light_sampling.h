@@ -28,7 +28,8 @@ struct Pivot {
 // True when no ray can hit the light: points, and distant lights of angle 0.
 bool is_delta(const Light& light);
 
-// Drawn on a quad, disk or mesh, the centre of a sphere, the point or spot itself. Nothing for lights without a place (distant, environment).
+// Drawn on a quad, disk or mesh, the centre of a sphere, the point or spot itself. Nothing for lights without
+// a place (distant, environment).
 std::optional<Pivot> sample_pivot(const Light& light, float u0, float u1);
 // True when the pivot is the point of the light's surface that sample_light then aims at.
 bool pivot_on_surface(const Light& light);

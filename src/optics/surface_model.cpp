@@ -76,7 +76,8 @@ SurfaceModel::SurfaceModel(const AlbedoTables& tables, const SurfaceParameters& 
 }
 
 void SurfaceModel::add(const Lobe& lobe, const Rgb& color, Under under) {
-  const Rgb lobe_albedo = std::visit([&](const auto& l) { return Rgb(colored(l.albedo(*tables_, o_))); }, lobe);
+  const Rgb lobe_albedo =
+      std::visit([&](const auto& l) { return Rgb(colored(l.albedo(*tables_, o_))); }, lobe);
   const Rgb part = color * lobe_albedo * static_cast<float>(passed_o_[static_cast<std::size_t>(under)]);
   layers_[count_++] = {lobe, color, under, max_component(part)};
   albedo_ += part;
@@ -95,7 +96,8 @@ Rgb SurfaceModel::value(const Vec3d& i) const {
   for (std::size_t k = 0; k < count_; ++k) {
     const Layer& layer = layers_[k];
     if (layer.probability == 0) continue;
-    const Rgb lobe = std::visit([&](const auto& l) { return Rgb(colored(l.value(*tables_, o_, i))); }, layer.lobe);
+    const Rgb lobe =
+        std::visit([&](const auto& l) { return Rgb(colored(l.value(*tables_, o_, i))); }, layer.lobe);
     sum += layer.color * lobe * static_cast<float>(share(layer, passed_i));
   }
   return sum;

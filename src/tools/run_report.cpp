@@ -134,7 +134,7 @@ nlohmann::json statistics_json(const scene::Scene& scene, const std::string& sce
 }
 
 void report_run_problems(const RenderArguments& arguments, const render::Statistics& statistics,
-                       Diagnostics& diagnostics) {
+                         Diagnostics& diagnostics) {
   const auto report = [&](Span span, std::string message, std::string help) {
     if (arguments.strict) {
       diagnostics.error(span, std::move(message), std::move(help));

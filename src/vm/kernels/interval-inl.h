@@ -220,8 +220,7 @@ TYNDALL_VM_BOUND3(smoothstep) {
                           lesser(one, smooth_curve(t_hi) * V(1.0f + kernel_error)), nan};
   const auto one_edge = both(both(a.lo == a.hi, b.lo == b.hi), a.lo == b.lo);
   // NaN is on neither side of one edge, which gives 0.
-  Bound<V> sharp =
-      truth<V>(either(!one_edge, c.hi >= a.lo), either(either(!one_edge, c.lo < a.lo), c.nan));
+  Bound<V> sharp = truth<V>(either(!one_edge, c.hi >= a.lo), either(either(!one_edge, c.lo < a.lo), c.nan));
   const auto overflows = !(largest_size(a) + largest_size(b) < V(endless));
   sharp.nan = either(nan, overflows);
   return choose(both(either(rising, falling), !overflows), curve, sharp);
