@@ -1,9 +1,7 @@
 // What sampling fire as light saves: noise at equal time with and without it.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
 #include "bench.h"
 #include "scene_file.h"
@@ -64,25 +62,11 @@ bool bench_fire() {
   for (Sample& sample : samples) {
     if (!sample.scene) return false;
     const compile::CompiledScene world = compile::compile(std::move(*sample.scene));
-    render::RenderOptions options;
-    options.first_sample = 1 << 16;
-    options.sample_count = 512;
-    const image::Image reference = render::render(world, options).film.image();
-    std::vector<Cost> costs[2];
-    for (int round = 0; round < 5; ++round)  // alternated
-      for (const bool sampled : {false, true}) {
-        options.first_sample = 16 * round;
-        options.sample_count = 16;
-        options.emission_sampling = sampled;
-        costs[sampled].push_back(cost_of(world, options, reference));
-      }
-    for (auto& list : costs)
-      std::sort(list.begin(), list.end(),
-                [](const Cost& a, const Cost& b) { return a.product() < b.product(); });
-    const Cost& met = costs[0][2];
-    const Cost& drawn = costs[1][2];
-    fmt::print("{:<16} {:10.3f} {:11.4f} {:10.3f} {:11.4f} {:10.1f}\n", sample.name, met.seconds, met.relmse,
-               drawn.seconds, drawn.relmse, met.product() / drawn.product());
+    render::RenderOptions met, drawn;
+    met.emission_sampling = false;
+    const TwoCosts costs = alternated_costs(world, met, drawn, 16, 512);
+    fmt::print("{:<16} {:10.3f} {:11.4f} {:10.3f} {:11.4f} {:10.1f}\n", sample.name, costs.first.seconds,
+               costs.first.relmse, costs.second.seconds, costs.second.relmse, costs.gain());
   }
   return true;
 }

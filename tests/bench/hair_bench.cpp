@@ -2,9 +2,7 @@
 // or going on at each hair by chance.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
 #include "bench.h"
 #include "scene_file.h"
@@ -47,25 +45,11 @@ bool bench_hair() {
     std::optional<scene::Scene> scene = read_scene("hairs", hairs_in_smoke, {{"cover", cover}});
     if (!scene) return false;
     const compile::CompiledScene world = compile::compile(std::move(*scene));
-    render::RenderOptions options;
-    options.first_sample = 1 << 16;
-    options.sample_count = 128;
-    const image::Image reference = render::render(world, options).film.image();
-    std::vector<Cost> costs[2];
-    for (int round = 0; round < 5; ++round)  // alternated
-      for (const bool in_pdf : {false, true}) {
-        options.first_sample = 4 * round;
-        options.sample_count = 4;
-        options.method = in_pdf ? render::Method::decoupled : render::Method::tracking;
-        costs[in_pdf].push_back(cost_of(world, options, reference));
-      }
-    for (auto& list : costs)
-      std::sort(list.begin(), list.end(),
-                [](const Cost& a, const Cost& b) { return a.product() < b.product(); });
-    const Cost& chance = costs[0][2];
-    const Cost& pdf = costs[1][2];
-    fmt::print("{:<10} {:14.3f} {:11.4f} {:14.3f} {:11.4f} {:10.2f}\n", cover, chance.seconds, chance.relmse,
-               pdf.seconds, pdf.relmse, chance.product() / pdf.product());
+    render::RenderOptions by_chance, in_pdf;
+    by_chance.method = render::Method::tracking;
+    const TwoCosts costs = alternated_costs(world, by_chance, in_pdf, 4, 128);
+    fmt::print("{:<10} {:14.3f} {:11.4f} {:14.3f} {:11.4f} {:10.2f}\n", cover, costs.first.seconds,
+               costs.first.relmse, costs.second.seconds, costs.second.relmse, costs.gain());
   }
   return true;
 }

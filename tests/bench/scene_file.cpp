@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 
@@ -36,6 +38,26 @@ Cost cost_of(const compile::CompiledScene& world, const render::RenderOptions& o
              const image::Image& reference) {
   const render::RenderResult result = render::render(world, options);
   return {result.statistics.seconds, image::compare(result.film.image(), reference).relative_mse};
+}
+
+TwoCosts alternated_costs(const compile::CompiledScene& world, const render::RenderOptions& first,
+                          const render::RenderOptions& second, int samples, int reference_samples) {
+  render::RenderOptions far = second;
+  far.first_sample = 1 << 16;
+  far.sample_count = reference_samples;
+  const image::Image reference = render::render(world, far).film.image();
+  std::array<std::array<Cost, 5>, 2> costs;
+  for (std::size_t round = 0; round < costs[0].size(); ++round)
+    for (std::size_t way = 0; way < 2; ++way) {
+      render::RenderOptions options = way == 0 ? first : second;
+      options.first_sample = samples * static_cast<int>(round);
+      options.sample_count = samples;
+      costs[way][round] = cost_of(world, options, reference);
+    }
+  for (auto& list : costs)
+    std::sort(list.begin(), list.end(),
+              [](const Cost& a, const Cost& b) { return a.product() < b.product(); });
+  return {costs[0][2], costs[1][2]};
 }
 
 }  // namespace tyndall

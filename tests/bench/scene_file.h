@@ -28,4 +28,13 @@ struct Cost {
 Cost cost_of(const compile::CompiledScene& world, const render::RenderOptions& options,
              const image::Image& reference);
 
+// Two ways of rendering one picture: of five rounds each, alternated, the one in the middle by product().
+// Each round has other samples, `samples` a pixel; the reference is of the second way.
+struct TwoCosts {
+  Cost first, second;
+  double gain() const { return first.product() / second.product(); }
+};
+TwoCosts alternated_costs(const compile::CompiledScene& world, const render::RenderOptions& first,
+                          const render::RenderOptions& second, int samples, int reference_samples);
+
 }  // namespace tyndall
