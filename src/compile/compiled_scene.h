@@ -5,6 +5,7 @@
 // origin.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstdint>
@@ -94,16 +95,21 @@ struct CompiledVolume {
   Transform shape_from_render, render_from_shape;  // of the bounding shape
   Transform medium_from_render;                    // render space to the medium's p
   scene::Step step;
-  bool skips = false;             // its grid finds so much empty or uniform that looking into it pays
-  double widest_step = 0;         // of an automatic step [m]
-  std::uint32_t grid = no_index;  // index of grids when the medium varies in space
+  bool skips = false;      // its grid finds so much empty or uniform that looking into it pays
+  double widest_step = 0;  // of an automatic step [m]
+  // Index of grids when the medium varies in space: the first of `time_slabs`, one for each of as many equal
+  // parts of the time that the shutter is open. A medium that is the same all that time has one.
+  std::uint32_t grid = no_index, time_slabs = 1;
   scene::Shape shape;
   bool visible = true;
   std::optional<SolidRank> rank{};                     // set: it gives way to bodies of glass above it
   const std::vector<scene::Volume>* motion = nullptr;  // keys over the shutter, of those that move
   Vec3d origin;                                        // of render space, for them
 
-  // What of it depends on the ray's time.
+  // What of it depends on the ray's time, a fraction of the time that the shutter is open.
+  std::uint32_t grid_at(double time) const {
+    return grid + std::min(static_cast<std::uint32_t>(time * time_slabs), time_slabs - 1);
+  }
   Transform medium_from_render_at(double time) const {
     return motion ? moved(time).medium_from_render : medium_from_render;
   }

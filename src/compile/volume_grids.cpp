@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "base/check.h"
 #include "base/numerics.h"
@@ -17,6 +18,25 @@ namespace {
 bool reads_world(const vm::Program& program) {
   return std::any_of(program.inputs.begin(), program.inputs.end(),
                      [](vm::Input input) { return vm::Input::P_x <= input && input <= vm::Input::P_z; });
+}
+bool reads_time(const vm::Program& program) {
+  return std::find(program.inputs.begin(), program.inputs.end(), vm::Input::time) != program.inputs.end();
+}
+
+// Of the shutter, where a medium changes while it is open: bounds over all of it would hold for everything
+// that the medium is in between. A power of two: where one ends is exact.
+constexpr std::uint32_t time_slabs = 8;
+
+// Where the medium's space is in the world in a part of the time that the shutter is open: at the ends of the
+// straight ways that it goes.
+std::vector<Transform> ways(const std::vector<scene::Volume>& keys, const Interval<double>& part) {
+  std::vector<Transform> out{scene::at(keys, part.lo).world_from_medium};
+  for (std::size_t k = 1; k + 1 < keys.size(); ++k) {
+    const double key = static_cast<double>(k) / static_cast<double>(keys.size() - 1);
+    if (part.lo < key && key < part.hi) out.push_back(keys[k].world_from_medium);
+  }
+  out.push_back(scene::at(keys, part.hi).world_from_medium);
+  return out;
 }
 
 // The box moved outward to a lattice of 2^-20 of its size: instances of one prototype, whose transforms round
@@ -99,35 +119,35 @@ void add_grids(CompiledScene& world) {
   std::vector<MajorantGrid::Domain> domains;
   std::vector<std::uint32_t> media;
   const std::vector<scene::Volume> volumes = scene::all_volumes(world.scene);
-  const Interval<float> shutter{world.seconds_at(0), world.seconds_at(1)};
   for (std::uint32_t v = 0; v < world.volumes.size(); ++v) {
     CompiledVolume& volume = world.volumes[v];
     const std::optional<Bounds> shape = world.geometry->bounds_of(volume.shape);
     CHECK(shape.has_value());  // volumes are closed
     volume.widest_step = widest_step(placed_bounds(*shape, volume.render_from_shape));
     if (world.media[volume.medium].homogeneous) continue;
+    const scene::Medium& medium = world.scene.media[volume.medium];
+    const bool in_world = reads_world(medium.full), sweeps = in_world && volume.motion;
+    if (world.shutter_seconds > 0 && (sweeps || reads_time(medium.full))) volume.time_slabs = time_slabs;
     MajorantGrid::Domain domain;
     domain.box = snapped(box_in_medium(world, volume));
-    domain.time = shutter;
-    const bool in_world = reads_world(world.scene.media[volume.medium].full);
-    if (in_world) {
-      if (volume.motion)
-        for (const scene::Volume& key : *volume.motion)
-          domain.world_from_medium.push_back(key.world_from_medium);
-      else
-        domain.world_from_medium = {volumes[v].world_from_medium};
-    }
+    if (in_world && !sweeps) domain.world_from_medium = {volumes[v].world_from_medium};
     domain.cells = cells_for(pixels_across(world, volume, *shape));
     const Bounds& b = domain.box;
     const Key key = {static_cast<double>(volume.medium),       b.lo.x, b.lo.y, b.lo.z, b.hi.x, b.hi.y, b.hi.z,
                      in_world ? static_cast<double>(v) + 1 : 0};
     const auto [found, added] = known.emplace(key, static_cast<std::uint32_t>(domains.size()));
     volume.grid = found->second;
-    if (added) {
+    for (std::uint32_t slab = 0; slab < volume.time_slabs; ++slab) {
+      if (!added) {
+        MajorantGrid::Domain& shared = domains[volume.grid + slab];
+        shared.cells = std::max(shared.cells, domain.cells);
+        continue;
+      }
+      const Interval<double> part{slab / double(volume.time_slabs), (slab + 1) / double(volume.time_slabs)};
+      domain.time = {world.seconds_at(part.lo), world.seconds_at(part.hi)};
+      if (sweeps) domain.world_from_medium = ways(*volume.motion, part);
       domains.push_back(domain);
       media.push_back(volume.medium);
-    } else {
-      domains[found->second].cells = std::max(domains[found->second].cells, domain.cells);
     }
   }
   const std::size_t share =
@@ -138,10 +158,14 @@ void add_grids(CompiledScene& world) {
     world.grids.push_back(std::make_unique<MajorantGrid>(world.scene.media[media[i]], domains[i]));
   }
   BoundsScratch scratch;
-  std::vector<bool> pays;
-  for (const auto& grid : world.grids) pays.push_back(grid->plain_share(scratch) >= least_plain_share);
-  for (CompiledVolume& volume : world.volumes)
-    if (volume.grid != no_index) volume.skips = pays[volume.grid];
+  std::vector<double> plain;
+  for (const auto& grid : world.grids) plain.push_back(grid->plain_share(scratch));
+  for (CompiledVolume& volume : world.volumes) {
+    if (volume.grid == no_index) continue;
+    const auto first = plain.begin() + volume.grid;
+    volume.skips =
+        std::accumulate(first, first + volume.time_slabs, 0.0) >= least_plain_share * volume.time_slabs;
+  }
 }
 
 }  // namespace tyndall::compile

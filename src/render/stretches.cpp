@@ -86,7 +86,7 @@ void find_stretches(const CompiledScene& world, const compile::Ray& ray, compile
       out.push_back({stay.t0, stay.t1, stay.volume, volume.step.metres});
       continue;
     }
-    const compile::MajorantGrid& grid = *world.grids[volume.grid];
+    const compile::MajorantGrid& grid = *world.grids[volume.grid_at(ray.time)];
     const Transform medium_from_render = volume.medium_from_render_at(ray.time);
     if (!automatic) {
       compile::KindWalk walk(grid, medium_from_render, ray, stay.t0, stay.t1, volume.step.metres,

@@ -11,7 +11,9 @@
 #include "compile/compiled_scene.h"
 #include "compile/grid_walk.h"
 #include "compile/kind_walk.h"
+#include "scene/motion.h"
 #include "support/scene_builder.h"
+#include "support/scene_text.h"
 #include "vm/machine.h"
 
 namespace tyndall::compile {
@@ -266,6 +268,82 @@ TEST(MajorantGrids, AreNotMadeForWhatDoesNotVary) {
   SceneBuilder builder;
   builder.volume(scene::Sphere{{}, 1}, builder.constant({}));
   EXPECT_TRUE(compile(builder.scene).grids.empty());
+}
+
+// A blob that crosses its box while the shutter is open: by its own shader, and by reading P in a volume that
+// moves. Each part of the shutter has a grid, which holds then, and proves what no grid of all that time can.
+TEST(MajorantGrids, PartsOfTheShutterHaveGridsOfTheirOwn) {
+  const std::string settings =
+      "animation { fps: 1  frames: 0..0  shutter: 360deg }\nrender { resolution: (64, 64) }\n"
+      "camera perspective { from: (0, 0, 6)  to: (0, 0, 0)  fov: 40deg }\n";
+  for (const std::string volume : {"volume { in: box { min: (-2, -1, -1)  max: (2, 1, 1) }  medium: { "
+                                   "density = 5 * max(0, 0.5 - length(p - "
+                                   "(4 * time - 2, 0, 0)))  albedo = 0.5 } }",
+                                   "volume { transform: translate((2 * time, 0, 0))  in: box { min: (-2, -1, "
+                                   "-1)  max: (2, 1, 1) }  medium: "
+                                   "{ density = 5 * max(0, 0.5 - length(P))  albedo = 0.5 } }"}) {
+    const CompiledScene world = compile(support::scene_of(settings + volume));
+    const CompiledVolume& v = world.volumes.at(0);
+    ASSERT_GE(v.time_slabs, 4u);
+    ASSERT_EQ(world.grids.size(), v.time_slabs);
+    MajorantGrid::Domain all_the_time = world.grids[0]->domain();
+    all_the_time.time.hi = world.grids.back()->domain().time.hi;
+    if (v.motion) {
+      all_the_time.world_from_medium.clear();
+      for (const scene::Volume& key : *v.motion)
+        all_the_time.world_from_medium.push_back(key.world_from_medium);
+    }
+    const MajorantGrid whole(world.scene.media[0], all_the_time);
+
+    const vm::Program& program = world.scene.media[0].extinction;
+    BoundsScratch scratch;
+    vm::Machine machine;
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    int zero = 0, proved = 0, proved_of_whole = 0;
+    constexpr int points = 50000;
+    for (int i = 0; i < points; ++i) {
+      const double fraction = i % 100 == 0 ? (i / 100 % 9) / 8.0 : 0.5 + 0.5 * uniform(random);
+      const Vec3d p{2 * uniform(random), uniform(random), uniform(random)};
+      const Vec3d in_world = v.motion ? scene::at(*v.motion, fraction).world_from_medium.point(p) : p;
+      const float seconds = world.seconds_at(fraction);
+      std::array<float, 3> medium_place, world_place;
+      vm::BatchInputs inputs;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        medium_place[axis] = static_cast<float>(p[axis]);
+        world_place[axis] = static_cast<float>(in_world[axis]);
+        inputs.lanes[static_cast<std::size_t>(vm::Input::p_x) + axis] = &medium_place[axis];
+        inputs.lanes[static_cast<std::size_t>(vm::Input::P_x) + axis] = &world_place[axis];
+      }
+      inputs[vm::Input::time] = &seconds;
+      std::vector<float> values(program.outputs.size());
+      std::vector<float*> outputs;
+      for (float& value : values) outputs.push_back(&value);
+      machine.run(program, inputs, 1, outputs);
+      const float sigma = values[world.scene.media[0].extinction_sigma_t[0]];
+      const CellBounds cell = world.grids[v.grid_at(fraction)]->at(p, scratch);
+      ASSERT_LE(cell.minorant, sigma) << i;
+      ASSERT_GE(cell.majorant, sigma) << i;
+      ASSERT_TRUE(cell.kind != CellKind::empty || sigma == 0) << i;
+      zero += sigma == 0;
+      proved += cell.kind == CellKind::empty;
+      proved_of_whole += whole.at(p, scratch).kind == CellKind::empty;
+    }
+    EXPECT_GT(proved, 0.9 * zero) << volume;
+    EXPECT_GT(points - proved_of_whole, 1.5 * (points - proved)) << volume;
+  }
+}
+
+// A still medium has one grid however long the shutter is open.
+TEST(MajorantGrids, WhatStaysTheSameHasOneGrid) {
+  const CompiledScene world = compile(support::scene_of(
+      "animation { fps: 1  frames: 0..0  shutter: 360deg }\nrender { resolution: (64, 64) }\n"
+      "camera perspective { from: (0, 0, 6)  to: (0, 0, 0)  fov: 40deg }\n"
+      "sphere { center: (5 * time, 0, 0)  radius: 0.1 }\n"
+      "volume { transform: translate((2 * time, 0, 0))  in: sphere { }  medium: { density = max(0, p.x)  "
+      "albedo = "
+      "0.5 } }\n"));
+  EXPECT_EQ(world.grids.size(), 1u);
 }
 
 }  // namespace
