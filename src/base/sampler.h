@@ -29,7 +29,7 @@ using SobolPoint = std::array<float, sobol_dimensions>;
 
 // Point `index` of the sequence named by `scramble`: a (0,m,2)-net in its first two dimensions, each in [0,
 // 1).
-SobolPoint sobol_point(std::uint32_t index, std::uint64_t scramble, int dimensions = sobol_dimensions);
+SobolPoint sobol_point(std::uint32_t index, std::uint64_t scramble);
 
 // The numbers of one sample of one pixel.
 class Sampler {
@@ -40,13 +40,10 @@ class Sampler {
   std::uint32_t sample() const { return sample_; }
 
   // The point of this sample for a decision. Decisions of the first bounces are stratified over samples.
-  SobolPoint point(std::uint64_t decision, int dimensions = sobol_dimensions) const {
-    return sobol_point(sample_, hash_bits(pixel_, decision), dimensions);
-  }
+  SobolPoint point(std::uint64_t decision) const { return sobol_point(sample_, hash_bits(pixel_, decision)); }
   // Point k of `count` for a decision taken `count` times a sample: consecutive points of one sequence.
-  SobolPoint point(std::uint64_t decision, std::uint32_t k, std::uint32_t count,
-                   int dimensions = sobol_dimensions) const {
-    return sobol_point(sample_ * count + k, hash_bits(pixel_, decision), dimensions);
+  SobolPoint point(std::uint64_t decision, std::uint32_t k, std::uint32_t count) const {
+    return sobol_point(sample_ * count + k, hash_bits(pixel_, decision));
   }
   // Independent numbers, for decisions without a bound on their count: (decision, counter) names them.
   std::uint32_t bits(std::uint64_t decision, std::uint64_t counter) const {

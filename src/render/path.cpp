@@ -79,10 +79,9 @@ class PathTracer {
       PathSlot& path = new_slot();
       path.sampler = sampler_for(world_, settings_, s);
       path.sample = static_cast<std::uint32_t>(started_++);
-      const SobolPoint u = path.sampler->point(decision(Decision::pixel, 0, 0), 4);
+      const SobolPoint u = path.sampler->point(decision(Decision::pixel, 0, 0));
       path.state = {};
-      const double time =
-          world_.features.motion ? path.sampler->point(decision(Decision::time, 0, 0), 1)[0] : 0;
+      const double time = world_.features.motion ? path.sampler->point(decision(Decision::time, 0, 0))[0] : 0;
       path.state.ray = camera_.ray(s.x, s.y, u[0], u[1], u[2], u[3], time);
       ++worker_.statistics.samples;
     }
@@ -235,7 +234,8 @@ class PathTracer {
                      settings_.orders_after(s.media_scatterings));
     if (volume_mass > 0) light_volume(context_, *path_, s, strategies, volume_continues, volume_probability);
 
-    const double u = both && !met_.several() ? 0 : point(Decision::end_or_volume, s, 1)[0];
+    const bool chooses = surface_mass > 0 && (!both || met_.several());
+    const double u = chooses ? point(Decision::end_or_volume, s)[0] : 0;
     if (surface_mass > 0 && (both || u >= volume_probability)) {
       const double part = both ? u : (u - volume_probability) / (1 - volume_probability);
       const MetSurface& surface = met_.choose(part);
@@ -265,9 +265,9 @@ class PathTracer {
 
   bool continue_in_volume(PathState& s, const March& m, const LightStrategies& strategies,
                           double volume_probability) {
-    const SobolPoint v = point(Decision::direction, s, 4);
+    const SobolPoint v = point(Decision::direction, s);
     const Scattering at =
-        draw_scattering(settings_, *path_, point(Decision::distance, s, 2), volume_probability);
+        draw_scattering(settings_, *path_, point(Decision::distance, s), volume_probability);
     worker_.phase.set(world_, m, at.segment);
     const float cosine_complement = worker_.phase.sample(v[0], v[1], v[2]);
     const float pdf_phase = worker_.phase.pdf(cosine_complement);
@@ -291,7 +291,7 @@ class PathTracer {
   }
 
   bool continue_from_surface(PathState& s, const SurfacePoint& surface) {
-    const SobolPoint v = point(Decision::direction, s, surface.model ? 4 : 2);
+    const SobolPoint v = point(Decision::direction, s);
     const auto next = surface.sample(v[2], v[0], v[1], v[3]);
     if (!next) return false;
     s.throughput *= next->weight;
@@ -366,9 +366,7 @@ class PathTracer {
 
   const Sampler& sampler() const { return *path_->sampler; }
   std::uint64_t id(Decision d, const PathState& s) const { return decision(d, s.depth, s.branch); }
-  SobolPoint point(Decision d, const PathState& s, int dimensions) const {
-    return sampler().point(id(d, s), dimensions);
-  }
+  SobolPoint point(Decision d, const PathState& s) const { return sampler().point(id(d, s)); }
   void add(const Rgb& radiance, LightPart part, std::string_view what) {
     radiance_[path_->sample] += radiance;
     if (!aovs_.empty()) aovs_[path_->sample].add(part, radiance);

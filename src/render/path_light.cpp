@@ -55,7 +55,7 @@ void light_volume(const PathContext& context, PathSlot& path, const PathState& s
 
 void light_aimed(const PathContext& context, PathSlot& path, const PathState& s, bool continues) {
   context.worker.shadows.set_sample(path.sample, s.direct_part(), s.higher_part());
-  path.light().sample_aimed(path.sampler->point(id(Decision::aimed, s), 5),
+  path.light().sample_aimed(path.sampler->point(id(Decision::aimed, s)),
                             path.sampler->bits(id(Decision::shadow, s), aimed_seeds), s.throughput, continues,
                             context.worker);
 }

@@ -39,7 +39,7 @@ void propagate(const compile::CompiledScene& world, const PathSettings& settings
   if (settings.method != Method::stochastic) return;
   for (const auto& path : paths) {
     const PathState& s = path->state;
-    const SobolPoint u = path->sampler->point(id(Decision::distance, s), 2);
+    const SobolPoint u = path->sampler->point(id(Decision::distance, s));
     path->light().set(world, path->march(), s.throughput, settings.method, settings.distance,
                       settings.orders_after(s.media_scatterings));
     path->light().aim({}, path->flight(), worker);

@@ -48,7 +48,7 @@ TEST(Sampler, DecisionsAreIndependent) {
   constexpr int pixels = 20000;
   for (std::uint32_t x = 0; x < pixels; ++x) {
     const Sampler s(1, 0, x, 3, 0);
-    sum += (s.point(10, 1)[0] - 0.5) * (s.point(11, 1)[0] - 0.5);
+    sum += (s.point(10)[0] - 0.5) * (s.point(11)[0] - 0.5);
   }
   EXPECT_NEAR(sum / pixels, 0, 4.0 / 12 / std::sqrt(pixels));
 }
