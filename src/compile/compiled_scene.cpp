@@ -56,6 +56,7 @@ bool grey(const scene::RgbOutputs& outputs) { return outputs[0] == outputs[1] &&
 CompiledMedium compiled(const scene::Medium& medium) {
   CompiledMedium out;
   out.homogeneous = medium.homogeneous();
+  out.constant = medium.full.constants.size() == medium.full.operand_count();
   const vm::Program& program = medium.extinction;
   const auto& outputs = medium.extinction_sigma_t;
   if (std::all_of(outputs.begin(), outputs.end(),

@@ -79,6 +79,7 @@ struct CompiledMaterial {
 // What marching asks of a medium besides its programs.
 struct CompiledMedium {
   bool homogeneous = false;             // one value for the whole ray: closed forms
+  bool constant = false;                // and the same for all rays: no program need run at all
   std::optional<Rgb> constant_sigma_t;  // set when no program need run for transmittance [1/m]
   std::vector<bool> may_be_negative;    // per output of the full program: the parameters of phase lobes
 };

@@ -104,6 +104,7 @@ Bounds Geometry::volume_bounds(const CompiledVolume& v) const {
 }
 
 std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) const {
+  if (world_.empty()) return std::nullopt;
   const auto found = world_.closest_hit({ray.origin, ray.direction, ray.t_max, ray.time}, kind);
   if (!found) return std::nullopt;
   SurfaceHit hit;
@@ -135,19 +136,21 @@ bool Geometry::occluded(const Ray& ray, std::uint32_t target_light) const {
 
 void Geometry::volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const {
   out.clear();
-  std::vector<Intervald> stays;
   const auto test = [&](std::uint32_t index) {
     const CompiledVolume& v = volumes_[index];
     if (kind == RayKind::camera && !v.visible) return ray.t_max;
+    const auto add = [&](const scene::Shape& shape, const Transform& shape_from_render) {
+      for_each_stay(shape, parts(), shape_from_render.point(ray.origin),
+                    shape_from_render.vector(ray.direction), ray.t_max, [&](const Intervald& stay) {
+                      out.push_back({stay.lo, stay.hi, index});
+                    });
+    };
     if (v.motion) {
       const CompiledVolume::Place now = v.moved(ray.time);
-      inside(now.shape, parts(), now.shape_from_render.point(ray.origin),
-             now.shape_from_render.vector(ray.direction), ray.t_max, stays);
+      add(now.shape, now.shape_from_render);
     } else {
-      inside(v.shape, parts(), v.shape_from_render.point(ray.origin),
-             v.shape_from_render.vector(ray.direction), ray.t_max, stays);
+      add(v.shape, v.shape_from_render);
     }
-    for (const Intervald& stay : stays) out.push_back({stay.lo, stay.hi, index});
     return ray.t_max;
   };
   if (volume_tree_) {
@@ -155,6 +158,7 @@ void Geometry::volume_intervals(const Ray& ray, RayKind kind, std::vector<Volume
   } else {
     for (std::uint32_t i = 0; i < volumes_.size(); ++i) test(i);
   }
+  if (out.size() < 2) return;
   std::sort(out.begin(), out.end(), [](const VolumeInterval& a, const VolumeInterval& b) {
     return a.t0 != b.t0 ? a.t0 < b.t0 : a.volume < b.volume;
   });

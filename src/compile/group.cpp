@@ -232,9 +232,8 @@ bool Group::occluded(const GroupRay& ray, std::uint32_t target_light) const {
       const PlacedSurface& s = surfaces_[index];
       if (s.light != no_index && s.light == target_light) return ray.t_max;
       placed(s, ray.time, [&](const scene::Shape& shape, const Transform& object_from_group) {
-        blocked = intersect(shape, parts_, object_from_group.point(ray.origin),
-                            object_from_group.vector(ray.direction), ray.t_max)
-                      .has_value();
+        blocked = blocks(shape, parts_, object_from_group.point(ray.origin),
+                         object_from_group.vector(ray.direction), ray.t_max);
       });
     } else {
       const PlacedInstance& i = instances_[index - surfaces_.size()];

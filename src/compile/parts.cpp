@@ -11,6 +11,13 @@ std::optional<ShapeHit> intersect(const scene::Shape& shape, const ShapeParts& p
   return intersect(shape, origin, direction, t_max);
 }
 
+bool blocks(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin, const Vec3d& direction,
+            double t_max) {
+  if (std::holds_alternative<scene::Mesh>(shape) || std::holds_alternative<scene::Curves>(shape))
+    return intersect(shape, parts, origin, direction, t_max).has_value();
+  return blocks(shape, origin, direction, t_max);
+}
+
 void inside(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin, const Vec3d& direction,
             double t_max, std::vector<Intervald>& out) {
   out.clear();

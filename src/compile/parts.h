@@ -19,8 +19,24 @@ struct ShapeParts {
 // The queries of shape_queries.h, for all shapes.
 std::optional<ShapeHit> intersect(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin,
                                   const Vec3d& direction, double t_max);
+// Whether anything is met in (0, t_max).
+bool blocks(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin, const Vec3d& direction,
+            double t_max);
 void inside(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin, const Vec3d& direction,
             double t_max, std::vector<Intervald>& out);
+// Calls visit(stay) for each of these stays.
+template <class Visit>
+void for_each_stay(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin,
+                   const Vec3d& direction, double t_max, Visit&& visit) {
+  if (std::holds_alternative<scene::Mesh>(shape)) {
+    std::vector<Intervald> stays;
+    inside(shape, parts, origin, direction, t_max, stays);
+    for (const Intervald& stay : stays) visit(stay);
+    return;
+  }
+  const Intervald stay = inside(shape, origin, direction, t_max);
+  if (!stay.empty()) visit(stay);
+}
 std::optional<Bounds> bounds(const scene::Shape& shape, const ShapeParts& parts);
 // Whether curves have no strands of their own: others near them have them (strand_groups.h).
 bool strands_went_elsewhere(const scene::Shape& shape, const ShapeParts& parts);

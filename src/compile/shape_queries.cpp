@@ -206,6 +206,20 @@ std::optional<ShapeHit> intersect(const scene::Shape& shape, const Vec3d& origin
   return std::visit([&](const auto& s) { return hit(s, origin, direction, t_max); }, shape);
 }
 
+bool blocks(const scene::Shape& shape, const Vec3d& origin, const Vec3d& direction, double t_max) {
+  return std::visit(
+      [&](const auto& s) {
+        using Shape = std::decay_t<decltype(s)>;
+        // Of a closed shape where it is met tells enough: no place, normal or coordinates.
+        if constexpr (std::is_same_v<Shape, scene::Sphere> || std::is_same_v<Shape, scene::Box> ||
+                      std::is_same_v<Shape, scene::Cylinder>)
+          return first_crossing(stay(s, origin, direction), t_max) >= 0;
+        else
+          return hit(s, origin, direction, t_max).has_value();
+      },
+      shape);
+}
+
 Intervald inside(const scene::Shape& shape, const Vec3d& origin, const Vec3d& direction, double t_max) {
   return std::visit([&](const auto& s) { return stay(s, origin, direction); }, shape).clipped_to({0, t_max});
 }

@@ -22,6 +22,9 @@ struct ShapeHit {
 std::optional<ShapeHit> intersect(const scene::Shape& shape, const Vec3d& origin, const Vec3d& direction,
                                   double t_max);
 
+// Whether the surface is crossed at any t in (0, t_max).
+bool blocks(const scene::Shape& shape, const Vec3d& origin, const Vec3d& direction, double t_max);
+
 // The stay inside a closed shape, clipped to [0, t_max); empty when there is none. Open shapes have none.
 Intervald inside(const scene::Shape& shape, const Vec3d& origin, const Vec3d& direction, double t_max);
 

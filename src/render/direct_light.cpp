@@ -65,7 +65,8 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
   // The strategy is chosen with the light's rescaled number, which leaves dimensions 1 and 2 for t.
   const double t = distances.sample(u_light, point[1], point[2]);
   const std::uint32_t segment = march_->segment_at(t);
-  const double pdf_t = distances.pdf(segment, t);
+  const Vec3d transmittance = march_->transmittance_at(segment, t);
+  const double pdf_t = distances.pdf(segment, t, transmittance);
   if (!(pdf_t > 0)) return;
 
   const Vec3d x = march_->ray.origin + march_->ray.direction * t;
@@ -77,9 +78,10 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
   double share_of_c = 1;
   if (continues && drawn->pdf_solid_angle > 0) {
     const double p = choice * pdf_t * drawn->pdf_solid_angle;
-    share_of_c = balance(samples, p, volume_probability * density_->pdf(segment, t) * worker.phase.pdf(m));
+    share_of_c =
+        balance(samples, p, volume_probability * density_->pdf(segment, transmittance) * worker.phase.pdf(m));
   }
-  const Rgb carried = weight * march_->sigma_s_at(segment) * march_->transmittance_at(segment, t) *
+  const Rgb carried = weight * march_->sigma_s_at(segment) * Rgb(transmittance) *
                       static_cast<float>(1 / (choice * pdf_t * samples));
   add_ray({*drawn, index, x, segment, carried, share_of_c}, shadow_seed, worker);
 }
@@ -120,7 +122,8 @@ double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t
   }
   const DistanceMixture distances(*light_now, *march_, *density_, throughput_, distance_, pivot,
                                   typical_phase_, worker);
-  return lights_.probability(light) * solid_angle * distances.pdf(segment, t);
+  return lights_.probability(light) * solid_angle *
+         distances.pdf(segment, t, march_->transmittance_at(segment, t));
 }
 
 void sample_surface_light(const compile::CompiledScene& world, const SurfacePoint& surface,

@@ -58,10 +58,10 @@ double DistanceMixture::sample(float u_strategy, float u_channel, float u) const
   return product_ ? product_->sample(u) : equiangular_->sample(u);
 }
 
-double DistanceMixture::pdf(std::uint32_t segment, double t) const {
+double DistanceMixture::pdf(std::uint32_t segment, double t, const Vec3d& transmittance) const {
   double pdf = 0;
   if (toward_light_ > 0) pdf += toward_light_ * (product_ ? product_->pdf(t) : equiangular_->pdf(t));
-  if (toward_light_ < 1) pdf += (1 - toward_light_) * density_.pdf(segment, t);
+  if (toward_light_ < 1) pdf += (1 - toward_light_) * density_.pdf(segment, transmittance);
   return pdf;
 }
 

@@ -35,8 +35,8 @@ class DistanceMixture {
   bool available() const { return toward_light_ > 0 || density_.available(); }
   // The distance for three numbers in [0, 1): which strategy, and two for it.
   double sample(float u_strategy, float u_channel, float u) const;
-  // Per metre, at t of this segment.
-  double pdf(std::uint32_t segment, double t) const;
+  // Per metre, at t of this segment, where the march's transmittance is this.
+  double pdf(std::uint32_t segment, double t, const Vec3d& transmittance) const;
 
  private:
   const DensityDistribution& density_;

@@ -61,8 +61,8 @@ void bounds_of(const CompiledScene& world, const March& m, const compile::Volume
     out.push_back({i.t0, i.t1, std::max(floor, uniform_extinction(world, volume, m, i.t0, worker))});
     return;
   }
-  compile::GridWalk walk(*world.grids[volume.grid_at(m.ray.time)], volume.medium_from_render_at(m.ray.time), m.ray, i.t0,
-                         i.t1, worker.bounds);
+  compile::GridWalk walk(*world.grids[volume.grid_at(m.ray.time)], volume.medium_from_render_at(m.ray.time),
+                         m.ray, i.t0, i.t1, worker.bounds);
   compile::MajorantSegment s;
   while (walk.next(s)) {
     double majorant = s.bounds.majorant;

@@ -133,7 +133,7 @@ void LightStrategies::sample_steps(const SobolPoint& point, std::uint32_t shadow
         share = balance(1, aim.choice * drawn->pdf_solid_angle / dt,
                         volume_probability * density_->pdf(i, t) * worker.phase.pdf(m));
       const Rgb carried =
-          weight * sigma_s * march_->transmittance_at(i, t) * static_cast<float>(dt / aim.choice);
+          weight * sigma_s * Rgb(march_->transmittance_at(i, t)) * static_cast<float>(dt / aim.choice);
       add_ray({*drawn, aim.light, x, i, carried, share}, shadow_seed + counter, worker);
     }
   }

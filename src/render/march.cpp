@@ -141,7 +141,7 @@ void evaluate_batch(const CompiledScene& world, std::span<const MarchRequest> re
   const Block& front = requests[entries.front().request].out->blocks[entries.front().block];
   float* const rows = worker.march_pool.data() + front.rows;
   const std::size_t count = front.pitch;
-  if (program.constants.size() == program.operand_count()) {  // nothing to run
+  if (world.media[medium].constant) {
     for (std::size_t k = 0; k < program.outputs.size(); ++k)
       std::fill_n(rows + k * count, count, program.constants[program.outputs[k]]);
     return;
@@ -336,11 +336,12 @@ Rgb March::albedo_at(std::uint32_t i) const {
   return albedo;
 }
 
-Rgb March::transmittance_at(std::uint32_t i, double t) const {
+Vec3d March::transmittance_at(std::uint32_t i, double t) const {
   Vec3d out;
+  const double x = std::clamp(t - t0[i], 0.0, dt[i]);
   for (int c = 0; c < extinction_channels; ++c)
-    out[c] = transmittance[c][i] * std::exp(-double{sigma_t[c][i]} * std::clamp(t - t0[i], 0.0, dt[i]));
-  return extinction_channels == 1 ? Rgb(static_cast<float>(out.x)) : Rgb(out);
+    out[c] = transmittance[c][i] * std::exp(-double{sigma_t[c][i]} * x);
+  return extinction_channels == 1 ? Vec3d(out.x) : out;
 }
 
 }  // namespace tyndall::render

@@ -79,7 +79,7 @@ struct March {
   // The segment that holds t (of a region; the nearest one for a t in a gap by rounding).
   std::uint32_t segment_at(double t) const;
   // Transmittance from the ray's start to t, inside segment i.
-  Rgb transmittance_at(std::uint32_t i, double t) const;
+  Vec3d transmittance_at(std::uint32_t i, double t) const;
   // sigma_s / sigma_t of segment i; 0 where there is nothing.
   Rgb albedo_at(std::uint32_t i) const;
   Rgb sigma_s_at(std::uint32_t i) const {
@@ -141,8 +141,9 @@ class DensityDistribution {
   DensityDistribution(const March& march, const Rgb& throughput);
   bool available() const { return total_ > 0; }
   double sample(float u_channel, float u) const;
-  // Per metre, at t of segment i.
-  double pdf(std::uint32_t i, double t) const;
+  // Per metre, at t of segment i; or where the march's transmittance from the ray's start is this.
+  double pdf(std::uint32_t i, double t) const { return pdf(i, march_.transmittance_at(i, t)); }
+  double pdf(std::uint32_t i, const Vec3d& transmittance) const;
 
  private:
   const March& march_;
@@ -169,6 +170,7 @@ class PhaseMixture {
     float probability;
   };
   std::vector<Lobe> lobes_;
+  std::uint32_t constant_medium_ = compile::no_index;  // whose lobes these are, for ever
 };
 
 }  // namespace tyndall::render

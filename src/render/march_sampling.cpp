@@ -40,20 +40,21 @@ double DensityDistribution::sample(float u_channel, float u) const {
   return march_.t0[segment] + std::min(x, march_.dt[segment]);
 }
 
-double DensityDistribution::pdf(std::uint32_t i, double t) const {
+double DensityDistribution::pdf(std::uint32_t i, const Vec3d& transmittance) const {
   if (!available()) return 0;
-  const double x = std::clamp(t - march_.t0[i], 0.0, march_.dt[i]);
-  double pdf = 0, transmittance = 0;
-  for (int c = 0; c < march_.channels; ++c) {
-    if (c < march_.extinction_channels)
-      transmittance = march_.transmittance[c][i] * std::exp(-double{march_.sigma_t[c][i]} * x);
+  double pdf = 0;
+  for (int c = 0; c < march_.channels; ++c)
     if (share_[c] > 0)
-      pdf += share_[c] * march_.sigma_s[c][i] * transmittance / march_.scattered[c][march_.count];
-  }
+      pdf += share_[c] * march_.sigma_s[c][i] * transmittance[c] / march_.scattered[c][march_.count];
   return pdf;
 }
 
 void PhaseMixture::set(const compile::CompiledScene& world, const March& m, std::uint32_t segment) {
+  const std::uint32_t medium_of_all =
+      m.blocks.size() == 1 ? world.volumes[m.blocks[0].volume].medium : compile::no_index;
+  const bool constant = medium_of_all != compile::no_index && world.media[medium_of_all].constant;
+  if (constant && medium_of_all == constant_medium_) return;
+  constant_medium_ = constant ? medium_of_all : compile::no_index;
   lobes_.clear();
   Rgb total;
   for (const Block& b : m.blocks) {

@@ -20,11 +20,15 @@ class MediumLanes {
   template <class T>
   void set(const compile::CompiledVolume& volume, const compile::Ray& ray, std::size_t first,
            std::size_t count, T&& t) {
+    std::vector<double>& distances = worker_.lane_distances;
+    if (distances.size() < count) distances.resize(count);
+    for (std::size_t i = 0; i < count; ++i) distances[i] = t(i);
     const auto put = [&](vm::Input input, const Vec3d& origin, const Vec3d& direction) {
+      const double* const along = distances.data();
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        float* lanes = worker_.inputs[static_cast<std::size_t>(input) + axis].data() + first;
+        float* const lanes = worker_.inputs[static_cast<std::size_t>(input) + axis].data() + first;
         const double o = origin[axis], d = direction[axis];
-        for (std::size_t i = 0; i < count; ++i) lanes[i] = static_cast<float>(o + d * t(i));
+        for (std::size_t i = 0; i < count; ++i) lanes[i] = static_cast<float>(o + d * along[i]);
       }
     };
     if (needs_p_) {

@@ -101,8 +101,13 @@ class PathTracer {
     path.current ^= 1;
     ++worker_.statistics.rays;
     const RayKind kind = s.origin.kind == PathOrigin::Kind::camera ? RayKind::camera : RayKind::scattered;
-    path.hit = world_.features.see_through ? trace_through(world_, s.ray, kind, worker_, path.crossings)
-                                           : world_.closest_hit(s.ray, kind);
+    const auto hit = world_.features.see_through ? trace_through(world_, s.ray, kind, worker_, path.crossings)
+                                                 : world_.closest_hit(s.ray, kind);
+    // An optional is copied whole even when it holds nothing.
+    if (hit)
+      path.hit = hit;
+    else
+      path.hit.reset();
     std::vector<MarchCrossing>& crossings = path.march().crossings;
     crossings.clear();
     for (const Crossing& c : path.crossings) crossings.push_back({c.t, 1 - c.surface.opacity});

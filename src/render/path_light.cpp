@@ -20,6 +20,12 @@ int light_samples(const PathSettings& settings, const PathState& s) {
   return s.depth == 0 ? settings.light_samples : 1;
 }
 
+// Of one of a path's shadow rays: what marches in uneven media are jittered by.
+std::uint32_t shadow_seed(const PathContext& context, const PathSlot& path, const PathState& s,
+                          std::uint64_t counter) {
+  return context.world.features.heterogeneous ? path.sampler->bits(id(Decision::shadow, s), counter) : 0;
+}
+
 // A counter of shadow seeds for each kind of ray.
 constexpr std::uint64_t surface_seeds = 0x10000, aimed_seeds = 0x20000, emission_seeds = 0x30000,
                         surface_emission_seeds = 0x40000;
@@ -33,7 +39,7 @@ void light_volume_by_emission(const PathContext& context, PathSlot& path, const 
     const Scattering at = draw_scattering(context.settings, path, u, 1);
     sample_volume_emission(context.world, *context.settings.emission, path.march(), at,
                            many(path, Decision::emission, s, k, samples),
-                           path.sampler->bits(id(Decision::shadow, s), emission_seeds + k), s.throughput,
+                           shadow_seed(context, path, s, emission_seeds + k), s.throughput,
                            continues ? volume_probability : 0, samples, context.worker);
   }
 }
@@ -47,8 +53,8 @@ void light_volume(const PathContext& context, PathSlot& path, const PathState& s
   context.worker.shadows.set_sample(path.sample, s.direct_part(), s.higher_part());
   const int samples = light_samples(context.settings, s);
   for (int k = 0; k < samples; ++k) {
-    const std::uint32_t shadow_seed = path.sampler->bits(id(Decision::shadow, s), k);
-    strategies.sample(many(path, Decision::light, s, k, samples), shadow_seed, s.throughput, continues,
+    const std::uint32_t seed = shadow_seed(context, path, s, k);
+    strategies.sample(many(path, Decision::light, s, k, samples), seed, s.throughput, continues,
                       volume_probability, samples, context.worker);
   }
 }
@@ -56,7 +62,7 @@ void light_volume(const PathContext& context, PathSlot& path, const PathState& s
 void light_aimed(const PathContext& context, PathSlot& path, const PathState& s, bool continues) {
   context.worker.shadows.set_sample(path.sample, s.direct_part(), s.higher_part());
   path.light().sample_aimed(path.sampler->point(id(Decision::aimed, s)),
-                            path.sampler->bits(id(Decision::shadow, s), aimed_seeds), s.throughput, continues,
+                            shadow_seed(context, path, s, aimed_seeds), s.throughput, continues,
                             context.worker);
 }
 
@@ -69,17 +75,17 @@ void light_surface(const PathContext& context, const PathSlot& path, const PathS
     for (int k = 0; k < samples; ++k)
       sample_surface_emission(*context.settings.emission, surface,
                               many(path, Decision::emission_surface, s, k, samples),
-                              path.sampler->bits(id(Decision::shadow, s), surface_emission_seeds + k),
-                              s.throughput, continues, samples, context.worker);
+                              shadow_seed(context, path, s, surface_emission_seeds + k), s.throughput,
+                              continues, samples, context.worker);
   }
   LightChoice& lights = context.worker.surface_lights;
   lights.set(context.world, surface.position, surface.normal, 0, 0, s.ray.time);
   if (lights.empty()) return;
   context.worker.shadows.set_sample(path.sample, s.part(s.depth + 1));
   for (int k = 0; k < samples; ++k) {
-    const std::uint32_t shadow_seed = path.sampler->bits(id(Decision::shadow, s), surface_seeds + k);
+    const std::uint32_t seed = shadow_seed(context, path, s, surface_seeds + k);
     sample_surface_light(context.world, surface, lights, many(path, Decision::light_surface, s, k, samples),
-                         shadow_seed, s.throughput, continues, samples, context.worker);
+                         seed, s.throughput, continues, samples, context.worker);
   }
 }
 

@@ -81,7 +81,7 @@ void Product::add_segment(const March& m, const Rgb& throughput, std::uint32_t i
     const Intervald cell{cuts_[k], cuts_[k + 1]};
     if (cell.empty()) continue;
     const double middle = 0.5 * (cell.lo + cell.hi);
-    cells_.push_back({cell, std::max(0.0f, luminance(carried * m.transmittance_at(i, middle)))});
+    cells_.push_back({cell, std::max(0.0f, luminance(carried * Rgb(m.transmittance_at(i, middle))))});
   }
 }
 

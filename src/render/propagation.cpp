@@ -15,8 +15,9 @@ void request_propagation(const compile::CompiledScene& world, const PathSettings
                          compile::RayKind kind, Worker& worker) {
   const PathState& s = path.state;
   if (settings.method != Method::tracking) {
-    worker.march_requests.push_back(
-        {s.ray, kind, path.sampler->bits(id(Decision::jitter, s), 0), &path.march()});
+    const std::uint32_t seed =
+        world.features.heterogeneous ? path.sampler->bits(id(Decision::jitter, s), 0) : 0;
+    worker.march_requests.push_back({s.ray, kind, seed, &path.march()});
     return;
   }
   // The light is chosen first, so that the flight knows a point to be aimed at.
@@ -58,9 +59,9 @@ Scattering draw_scattering(const PathSettings& settings, PathSlot& path, const S
   Scattering out;
   out.t = density.sample(u[0], u[1]);
   out.segment = m.segment_at(out.t);
-  out.pdf = density.pdf(out.segment, out.t) * volume_probability;
-  out.weight =
-      m.sigma_s_at(out.segment) * m.transmittance_at(out.segment, out.t) * static_cast<float>(1 / out.pdf);
+  const Vec3d transmittance = m.transmittance_at(out.segment, out.t);
+  out.pdf = density.pdf(out.segment, transmittance) * volume_probability;
+  out.weight = m.sigma_s_at(out.segment) * Rgb(transmittance) * static_cast<float>(1 / out.pdf);
   return out;
 }
 

@@ -47,8 +47,9 @@ void RatioTracking::draw_points(const compile::CompiledScene& world, Transmittan
   walk.first = static_cast<std::uint32_t>(points_.size());
   walk.count = 0;
   double controlled = 0;  // ∫ control up to the walk's new start
-  compile::GridWalk grid(*world.grids[volume.grid_at(ray.ray.time)], volume.medium_from_render_at(ray.ray.time), ray.ray,
-                         walk.t0, walk.t1, worker.bounds);
+  compile::GridWalk grid(*world.grids[volume.grid_at(ray.ray.time)],
+                         volume.medium_from_render_at(ray.ray.time), ray.ray, walk.t0, walk.t1,
+                         worker.bounds);
   compile::MajorantSegment s;
   bool ended = true;
   while (ended && grid.next(s)) {

@@ -61,6 +61,7 @@ struct Worker {
   BadValueCounts bad_values;
   std::array<std::vector<float>, vm::input_count> inputs;  // lanes of one batch
   std::vector<float*> outputs, shifted_outputs;
+  std::vector<double> lane_distances;  // [m] along its ray, of lanes of one batch
   struct LaneTime {
     std::size_t first;  // lane
     double time;        // of this and the next ones
