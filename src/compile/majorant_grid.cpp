@@ -68,7 +68,7 @@ void add_unique(std::vector<std::uint8_t>& list, const scene::RgbOutputs& output
 }  // namespace
 
 MajorantGrid::MajorantGrid(const scene::Medium& medium, const Domain& domain)
-    : medium_(medium), domain_(domain) {
+    : medium_(medium), domain_(domain), occupied_(domain.box) {
   const Vec3d extent = domain.box.hi - domain.box.lo;
   CHECK(extent.x >= 0 && extent.y >= 0 && extent.z >= 0);
   bricks_ = bricks_for(extent, domain.cells);
@@ -100,19 +100,37 @@ CellBounds MajorantGrid::at(const Vec3d& p, BoundsScratch& scratch) const {
   return b.cell(place_in_brick(cell[0], cell[1], cell[2]));
 }
 
-double MajorantGrid::plain_share(BoundsScratch& scratch) const {
-  for (std::uint32_t z = 0; z < bricks_[2]; ++z)
-    for (std::uint32_t y = 0; y < bricks_[1]; ++y)
-      for (std::uint32_t x = 0; x < bricks_[0]; ++x) {
-        const Vec3d middle = (Vec3d{x + 0.5, y + 0.5, z + 0.5}) * cell_size_ * double{brick_side};
-        const Vec3d half = cell_size_ * (block_side * 0.5);
-        add_box(domain_.box.lo + middle - half, domain_.box.lo + middle + half, scratch);
-      }
-  const std::size_t boxes = brick_count();
-  evaluate(boxes, scratch);
+void MajorantGrid::survey(BoundsScratch& scratch) {
+  constexpr std::uint32_t along = brick_side / block_side;  // blocks of a brick
+  const Vec3d size = cell_size_ * double{block_side};
   std::size_t plain = 0;
-  for (std::size_t i = 0; i < boxes; ++i) plain += summary(i, 1, boxes, scratch).kind != CellKind::varying;
-  return static_cast<double>(plain) / static_cast<double>(boxes);
+  Bounds occupied{Vec3d(infinity), Vec3d(-infinity)};
+  // In slices of one layer of blocks.
+  const std::uint32_t nx = bricks_[0] * along, ny = bricks_[1] * along, nz = bricks_[2] * along;
+  const auto corner = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return domain_.box.lo + Vec3d{x * size.x, y * size.y, z * size.z};
+  };
+  for (std::uint32_t z = 0; z < nz; ++z) {
+    for (std::uint32_t y = 0; y < ny; ++y)
+      for (std::uint32_t x = 0; x < nx; ++x) add_box(corner(x, y, z), corner(x + 1, y + 1, z + 1), scratch);
+    const std::size_t boxes = std::size_t{nx} * ny;
+    evaluate(boxes, scratch);
+    for (std::uint32_t y = 0; y < ny; ++y)
+      for (std::uint32_t x = 0; x < nx; ++x) {
+        const CellKind kind = summary(std::size_t{y} * nx + x, 1, boxes, scratch).kind;
+        plain += kind != CellKind::varying;
+        if (kind == CellKind::empty) continue;
+        const Vec3d lo = corner(x, y, z), hi = corner(x + 1, y + 1, z + 1);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          occupied.lo[axis] = std::min(occupied.lo[axis], lo[axis]);
+          occupied.hi[axis] = std::max(occupied.hi[axis], hi[axis]);
+        }
+      }
+  }
+  plain_share_ = static_cast<double>(plain) / static_cast<double>(std::size_t{nx} * ny * nz);
+  // Within what the blocks were bounded with around them.
+  const Vec3d room = size * (padding / 2);
+  occupied_ = {occupied.lo - room, occupied.hi + room};
 }
 
 // Whoever is first publishes; another's copy is the same and is dropped.

@@ -7,6 +7,7 @@
 // come first; a brick is a pure function of its place, so it does not matter which ray or thread was first.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -126,9 +127,25 @@ class MajorantGrid {
   Kinds kinds(int level) const { return {this, level}; }
   // Whether two uniform groups have the same bounds.
   bool same_values(int level, std::size_t a, std::size_t b, BoundsScratch& scratch) const;
-  // The share of boxes of block_side cells, one in the middle of each brick, that are proved empty or
-  // uniform.
-  double plain_share(BoundsScratch& scratch) const;
+  // Looks at every block as a whole. To be called once, before rays come.
+  void survey(BoundsScratch& scratch);
+  // After it: the share of blocks that are proved empty or uniform,
+  double plain_share() const { return plain_share_; }
+  // and what of a stay on a ray in the medium's space, of any direction but zero, may hold anything: what
+  // lies outside the box around all blocks that are not proved empty does not. Empty when nothing may.
+  Intervald occupied_part(const Vec3d& origin, const Vec3d& direction, Intervald stay) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double lo = occupied_.lo[axis] - origin[axis], hi = occupied_.hi[axis] - origin[axis];
+      if (direction[axis] == 0) {
+        if (lo > 0 || hi < 0) return {};
+        continue;
+      }
+      const double inverse = 1 / direction[axis], a = lo * inverse, b = hi * inverse;
+      stay.lo = std::max(stay.lo, std::min(a, b));
+      stay.hi = std::min(stay.hi, std::max(a, b));
+    }
+    return stay;
+  }
   // The cell that holds p, which is moved into the box when it lies outside.
   CellBounds at(const Vec3d& p, BoundsScratch& scratch) const;
 
@@ -149,6 +166,8 @@ class MajorantGrid {
   Domain domain_;
   std::array<std::uint32_t, 3> bricks_{};
   Vec3d cell_size_;
+  double plain_share_ = 0;
+  Bounds occupied_;                         // whole blocks and a little more; of the domain before the survey
   std::vector<std::uint8_t> coefficients_;  // outputs that are not negative: extinction, scattering, emission
   mutable std::vector<std::atomic<Brick*>> made_;
   // By level and group; functions of the place, so whoever writes one writes the same.

@@ -159,7 +159,10 @@ void add_grids(CompiledScene& world) {
   }
   BoundsScratch scratch;
   std::vector<double> plain;
-  for (const auto& grid : world.grids) plain.push_back(grid->plain_share(scratch));
+  for (const auto& grid : world.grids) {
+    grid->survey(scratch);
+    plain.push_back(grid->plain_share());
+  }
   for (CompiledVolume& volume : world.volumes) {
     if (volume.grid == no_index) continue;
     const auto first = plain.begin() + volume.grid;

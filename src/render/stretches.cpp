@@ -74,11 +74,20 @@ void find_stretches(const CompiledScene& world, const compile::Ray& ray, compile
   const auto certified = static_cast<double>(std::count_if(stays.begin(), stays.end(), [&](const auto& i) {
     return varies(i) && world.volumes[i.volume].step.automatic();
   }));
-  for (const VolumeInterval& stay : stays) {
+  for (VolumeInterval& stay : stays) {
     const CompiledVolume& volume = world.volumes[stay.volume];
     if (!varies(stay)) {
       out.push_back({stay.t0, stay.t1, stay.volume, infinity});
       continue;
+    }
+    const compile::MajorantGrid& grid = *world.grids[volume.grid_at(ray.time)];
+    const Transform medium_from_render = volume.medium_from_render_at(ray.time);
+    if (worker.skips_empty) {
+      const Intervald part = grid.occupied_part(medium_from_render.point(ray.origin),
+                                                medium_from_render.vector(ray.direction), {stay.t0, stay.t1});
+      if (part.empty()) continue;
+      stay.t0 = part.lo;
+      stay.t1 = part.hi;
     }
     const bool automatic = volume.step.automatic();
     if (!automatic &&
@@ -86,8 +95,6 @@ void find_stretches(const CompiledScene& world, const compile::Ray& ray, compile
       out.push_back({stay.t0, stay.t1, stay.volume, volume.step.metres});
       continue;
     }
-    const compile::MajorantGrid& grid = *world.grids[volume.grid_at(ray.time)];
-    const Transform medium_from_render = volume.medium_from_render_at(ray.time);
     if (!automatic) {
       compile::KindWalk walk(grid, medium_from_render, ray, stay.t0, stay.t1, volume.step.metres,
                              worker.bounds);
