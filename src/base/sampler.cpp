@@ -1,9 +1,6 @@
 // Every dimension of a point is a lane. Integers alone: all SIMD classes give the same numbers.
 #include "base/sampler.h"
 
-#include <algorithm>
-#include <array>
-
 #include "base/sobol_tables.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -58,7 +55,7 @@ void sobol_words(std::uint32_t shuffled, std::uint64_t seeds, float* point) {
   const Tag d;
   const Words low = hn::Set(d, static_cast<std::uint32_t>(seeds)),
               high = hn::Set(d, static_cast<std::uint32_t>(seeds >> 32));
-  for (std::size_t i = 0; i < sobol::row; i += hn::Lanes(d)) {
+  for (std::size_t i = 0; i < sobol_dimensions; i += hn::Lanes(d)) {
     Words bits = hn::Load(d, sobol::tables[0][shuffled & 255u].data() + i);
     for (std::uint32_t k = 1; k < 4; ++k)
       bits = hn::Xor(bits, hn::Load(d, sobol::tables[k][(shuffled >> (8 * k)) & 255u].data() + i));
@@ -100,10 +97,8 @@ SobolPoint sobol_point(std::uint32_t index, std::uint64_t scramble) {
   const std::uint64_t seeds = hash_bits(scramble);
   const std::uint32_t shuffled =
       owen_scramble_reversed(sobol::reverse_bits(index), static_cast<std::uint32_t>(seeds >> 32));
-  std::array<float, sobol::row> words;
-  HWY_DYNAMIC_DISPATCH(sobol_words)(shuffled, seeds, words.data());
   SobolPoint point;
-  std::copy_n(words.begin(), point.size(), point.begin());
+  HWY_DYNAMIC_DISPATCH(sobol_words)(shuffled, seeds, point.data());
   return point;
 }
 

@@ -24,7 +24,7 @@ constexpr std::uint64_t hash_bits(std::uint64_t a, std::uint64_t b) { return has
 constexpr float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
 // Dimensions of one decision's points.
-inline constexpr int sobol_dimensions = 5;
+inline constexpr int sobol_dimensions = 8;
 using SobolPoint = std::array<float, sobol_dimensions>;
 
 // Point `index` of the sequence named by `scramble`: a (0,m,2)-net in its first two dimensions, each in [0,

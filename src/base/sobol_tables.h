@@ -13,7 +13,7 @@ using Matrix = std::array<std::uint32_t, 32>;
 
 // Direction numbers of one dimension from its primitive polynomial (degree s, coefficients a) and first m_i.
 // Joe and Kuo, "Constructing Sobol sequences with better two-dimensional projections" (2008), new-joe-kuo-6.
-constexpr Matrix direction_numbers(std::uint32_t s, std::uint32_t a, std::array<std::uint32_t, 3> m) {
+constexpr Matrix direction_numbers(std::uint32_t s, std::uint32_t a, std::array<std::uint32_t, 5> m) {
   Matrix v{};
   for (std::uint32_t i = 0; i < 32; ++i) {
     if (s == 0) {  // van der Corput
@@ -29,9 +29,14 @@ constexpr Matrix direction_numbers(std::uint32_t s, std::uint32_t a, std::array<
 }
 
 inline constexpr std::array<Matrix, sobol_dimensions> matrices = {
-    direction_numbers(0, 0, {}),        direction_numbers(1, 0, {1, 0, 0}),
-    direction_numbers(2, 1, {1, 3, 0}), direction_numbers(3, 1, {1, 3, 1}),
+    direction_numbers(0, 0, {}),
+    direction_numbers(1, 0, {1, 0, 0}),
+    direction_numbers(2, 1, {1, 3, 0}),
+    direction_numbers(3, 1, {1, 3, 1}),
     direction_numbers(3, 2, {1, 1, 1}),
+    direction_numbers(4, 1, {1, 1, 3, 3}),
+    direction_numbers(4, 4, {1, 3, 5, 13}),
+    direction_numbers(5, 2, {1, 1, 5, 5, 17}),
 };
 
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {
@@ -42,10 +47,8 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
 }
 
 // The same for indices and results with their bits in reverse, which saves reversing them: entry [k][b] is
-// what byte k of value b adds, by dimension, in whole vectors.
-inline constexpr std::size_t row = 8;
-using ByteTables = std::array<std::array<std::array<std::uint32_t, row>, 256>, 4>;
-static_assert(sobol_dimensions <= row);
+// what byte k of value b adds, by dimension.
+using ByteTables = std::array<std::array<std::array<std::uint32_t, sobol_dimensions>, 256>, 4>;
 constexpr ByteTables byte_tables() {
   ByteTables tables{};
   for (std::size_t k = 0; k < 4; ++k)

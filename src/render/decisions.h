@@ -9,8 +9,8 @@ enum class Decision : std::uint8_t {
   pixel,          // pixel 2, lens 2
   jitter,         // of the march
   end_or_volume,  // which continuation
-  distance,       // of the continuation: channel, t
-  direction,      // lobe, 2 of the phase function; or 2 of the surface
+  distance,       // of a flight: channel, t
+  continuation,   // 2 of the direction, t, channel, lobe, one more of the direction
   light,          // light, strategy, t, 2 of the light's surface
   light_surface,  // the same at surfaces
   shadow,         // offset of shadow marches

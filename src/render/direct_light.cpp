@@ -63,27 +63,24 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
   if (!distances.available()) return;
 
   // The strategy is chosen with the light's rescaled number, which leaves dimensions 1 and 2 for t.
-  const double t = distances.sample(u_light, point[1], point[2]);
-  const std::uint32_t segment = march_->segment_at(t);
-  const Vec3d transmittance = march_->transmittance_at(segment, t);
-  const double pdf_t = distances.pdf(segment, t, transmittance);
+  const MarchPlace at = distances.sample(u_light, point[1], point[2]);
+  const double pdf_t = distances.pdf(at);
   if (!(pdf_t > 0)) return;
 
-  const Vec3d x = march_->ray.origin + march_->ray.direction * t;
+  const Vec3d x = march_->ray.origin + march_->ray.direction * at.t;
   const auto drawn = optics::sample_light(light, x, pivot.value_or(optics::Pivot{}), point[3], point[4]);
   if (!drawn) return;
-  worker.phase.set(*world_, *march_, segment);
+  worker.phase.set(*world_, *march_, at.segment);
   const float m = optics::one_minus_cos(Vec3f(march_->ray.direction), Vec3f(drawn->direction));
   const double choice = lights_.probability(index);
   double share_of_c = 1;
   if (continues && drawn->pdf_solid_angle > 0) {
     const double p = choice * pdf_t * drawn->pdf_solid_angle;
-    share_of_c =
-        balance(samples, p, volume_probability * density_->pdf(segment, transmittance) * worker.phase.pdf(m));
+    share_of_c = balance(samples, p, volume_probability * density_->pdf(at) * worker.phase.pdf(m));
   }
-  const Rgb carried = weight * march_->sigma_s_at(segment) * Rgb(transmittance) *
+  const Rgb carried = weight * march_->sigma_s_at(at.segment) * Rgb(at.transmittance) *
                       static_cast<float>(1 / (choice * pdf_t * samples));
-  add_ray({*drawn, index, x, segment, carried, share_of_c}, shadow_seed, worker);
+  add_ray({*drawn, index, x, at.segment, carried, share_of_c}, shadow_seed, worker);
 }
 
 void LightStrategies::add_ray(const Arrival& a, std::uint32_t shadow_seed, Worker& worker) const {
@@ -123,7 +120,7 @@ double LightStrategies::pdf(std::uint32_t light, std::uint32_t segment, double t
   const DistanceMixture distances(*light_now, *march_, *density_, throughput_, distance_, pivot,
                                   typical_phase_, worker);
   return lights_.probability(light) * solid_angle *
-         distances.pdf(segment, t, march_->transmittance_at(segment, t));
+         distances.pdf({t, segment, march_->transmittance_at(segment, t)});
 }
 
 void sample_surface_light(const compile::CompiledScene& world, const SurfacePoint& surface,

@@ -39,7 +39,7 @@ DistanceMixture::DistanceMixture(const optics::Light& light, const March& march,
                                  const DensityDistribution& density, const Rgb& throughput, Distance distance,
                                  const std::optional<optics::Pivot>& pivot, const PhaseMixture& phase,
                                  Worker& worker)
-    : density_(density), stretches_(worker.stretches) {
+    : march_(march), density_(density), stretches_(worker.stretches) {
   worker.stretches.clear();
   if (!pivot || distance == Distance::density) return;
   reached_stretches(light, *pivot, march, worker.stretches);
@@ -53,15 +53,15 @@ DistanceMixture::DistanceMixture(const optics::Light& light, const March& march,
   if (equiangular_->available()) toward_light_ = density_.available() && distance == Distance::mis ? 0.5 : 1;
 }
 
-double DistanceMixture::sample(float u_strategy, float u_channel, float u) const {
+MarchPlace DistanceMixture::sample(float u_strategy, float u_channel, float u) const {
   if (u_strategy >= toward_light_) return density_.sample(u_channel, u);
-  return product_ ? product_->sample(u) : equiangular_->sample(u);
+  return march_.place_at(product_ ? product_->sample(u) : equiangular_->sample(u));
 }
 
-double DistanceMixture::pdf(std::uint32_t segment, double t, const Vec3d& transmittance) const {
+double DistanceMixture::pdf(const MarchPlace& at) const {
   double pdf = 0;
-  if (toward_light_ > 0) pdf += toward_light_ * (product_ ? product_->pdf(t) : equiangular_->pdf(t));
-  if (toward_light_ < 1) pdf += (1 - toward_light_) * density_.pdf(segment, transmittance);
+  if (toward_light_ > 0) pdf += toward_light_ * (product_ ? product_->pdf(at.t) : equiangular_->pdf(at.t));
+  if (toward_light_ < 1) pdf += (1 - toward_light_) * density_.pdf(at);
   return pdf;
 }
 

@@ -34,11 +34,12 @@ class DistanceMixture {
 
   bool available() const { return toward_light_ > 0 || density_.available(); }
   // The distance for three numbers in [0, 1): which strategy, and two for it.
-  double sample(float u_strategy, float u_channel, float u) const;
-  // Per metre, at t of this segment, where the march's transmittance is this.
-  double pdf(std::uint32_t segment, double t, const Vec3d& transmittance) const;
+  MarchPlace sample(float u_strategy, float u_channel, float u) const;
+  // Per metre.
+  double pdf(const MarchPlace& at) const;
 
  private:
+  const March& march_;
   const DensityDistribution& density_;
   const std::vector<Intervald>& stretches_;  // that scatter and that the light reaches
   std::optional<Equiangular> equiangular_;

@@ -130,8 +130,9 @@ void LightStrategies::sample_steps(const SobolPoint& point, std::uint32_t shadow
       const float m = optics::one_minus_cos(Vec3f(march_->ray.direction), Vec3f(drawn->direction));
       double share = 1;
       if (continues && drawn->pdf_solid_angle > 0)
-        share = balance(1, aim.choice * drawn->pdf_solid_angle / dt,
-                        volume_probability * density_->pdf(i, t) * worker.phase.pdf(m));
+        share = balance(
+            1, aim.choice * drawn->pdf_solid_angle / dt,
+            volume_probability * density_->pdf({t, i, march_->transmittance_at(i, t)}) * worker.phase.pdf(m));
       const Rgb carried =
           weight * sigma_s * Rgb(march_->transmittance_at(i, t)) * static_cast<float>(dt / aim.choice);
       add_ray({*drawn, aim.light, x, i, carried, share}, shadow_seed + counter, worker);

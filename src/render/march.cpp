@@ -43,8 +43,10 @@ void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
   for (const Stretch& s : m.stretches) edges.insert(edges.end(), {s.t0, s.t1});
   if (!edges.empty())
     for (const MarchCrossing& c : m.crossings) edges.push_back(c.t);
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  if (edges.size() > 2) {
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  }
 
   double wanted = 0;  // segments, before the bound
   ActiveStretches stretches(m.stretches, worker.active);
@@ -229,10 +231,15 @@ void accumulate_transmittance(int channel, const std::vector<float>& sigma_t, Ma
     const double sigma = sigma_t[i], depth = sigma * m.dt[i];
     reach[i] = t * m.dt[i];
     if (depth == 0) continue;
-    reach[i] *= exp_average(depth);
-    // T (1 - (1 - e^-depth)) keeps 1 - T and the sum of sigma * reach equal to rounding; where it would
-    // cancel, T e^-depth.
-    t = depth < 1 ? t - sigma * reach[i] : t * std::exp(-depth);
+    // Either way 1 - T and the sum of sigma * reach are equal to rounding.
+    if (depth < 0.25) {
+      reach[i] *= exp_average(depth);
+      t -= sigma * reach[i];
+    } else {
+      const double through = std::exp(-depth);
+      reach[i] *= (1 - through) / depth;
+      t *= through;
+    }
   }
   cross_before(infinity);
   transmittance[m.count] = t;

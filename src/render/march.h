@@ -45,6 +45,13 @@ struct MarchCrossing {
   Rgb before{};  // transmittance from the ray's start to the surface: set by the march
 };
 
+// A place on a marched ray, with the transmittance from the ray's start to it.
+struct MarchPlace {
+  double t = 0;  // [m]
+  std::uint32_t segment = 0;
+  Vec3d transmittance;
+};
+
 // Segments of one ray, structure of arrays; a colour quantity has one row when no medium of the scene is
 // chromatic. Edges increase, transmittance never rises.
 struct March {
@@ -80,6 +87,10 @@ struct March {
   std::uint32_t segment_at(double t) const;
   // Transmittance from the ray's start to t, inside segment i.
   Vec3d transmittance_at(std::uint32_t i, double t) const;
+  MarchPlace place_at(double t) const {
+    const std::uint32_t i = segment_at(t);
+    return {t, i, transmittance_at(i, t)};
+  }
   // sigma_s / sigma_t of segment i; 0 where there is nothing.
   Rgb albedo_at(std::uint32_t i) const;
   Rgb sigma_s_at(std::uint32_t i) const {
@@ -140,10 +151,9 @@ class DensityDistribution {
  public:
   DensityDistribution(const March& march, const Rgb& throughput);
   bool available() const { return total_ > 0; }
-  double sample(float u_channel, float u) const;
-  // Per metre, at t of segment i; or where the march's transmittance from the ray's start is this.
-  double pdf(std::uint32_t i, double t) const { return pdf(i, march_.transmittance_at(i, t)); }
-  double pdf(std::uint32_t i, const Vec3d& transmittance) const;
+  MarchPlace sample(float u_channel, float u) const;
+  // Per metre.
+  double pdf(const MarchPlace& at) const;
 
  private:
   const March& march_;

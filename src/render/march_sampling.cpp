@@ -22,7 +22,7 @@ DensityDistribution::DensityDistribution(const March& march, const Rgb& throughp
     for (double& share : share_) share /= total_;
 }
 
-double DensityDistribution::sample(float u_channel, float u) const {
+MarchPlace DensityDistribution::sample(float u_channel, float u) const {
   int c = 0;
   double rest = u_channel;
   while (c + 1 < march_.channels && rest >= share_[c]) rest -= share_[c++];
@@ -32,20 +32,27 @@ double DensityDistribution::sample(float u_channel, float u) const {
   const auto after = std::upper_bound(scattered.begin(), scattered.begin() + march_.count + 1, target);
   const auto i = static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(after - scattered.begin() - 1, 0));
   const std::uint32_t segment = std::min(i, march_.count - 1);
-  const double mass = scattered[segment + 1] - scattered[segment];
-  const double part = mass > 0 ? std::clamp((target - scattered[segment]) / mass, 0.0, 1.0) : 0.0;
-  // Invert 1 - e^(-sigma x) = part (1 - e^(-sigma dt)); uniform in the limit of no extinction.
-  const double sigma = march_.sigma_t[march_.extinction_row(c)][segment], depth = sigma * march_.dt[segment];
-  const double x = depth < 1e-6 ? part * march_.dt[segment] : -std::log1p(part * std::expm1(-depth)) / sigma;
-  return march_.t0[segment] + std::min(x, march_.dt[segment]);
+  const double mass =
+      std::clamp(target - scattered[segment], 0.0, scattered[segment + 1] - scattered[segment]);
+  // Invert mass = sigma_s T (1 - e^(-sigma_t x)) / sigma_t; it is sigma_s T x in the limit of no extinction.
+  const double sigma_t = march_.sigma_t[march_.extinction_row(c)][segment], dt = march_.dt[segment];
+  const double begin = march_.transmittance[march_.extinction_row(c)][segment];
+  const double rate = march_.sigma_s[c][segment] * begin;  // 0 when there is nothing to give
+  const double gone = rate > 0 ? std::min(mass * sigma_t / rate, 1.0) : 0.0;
+  const double x = gone > 1e-6 ? -std::log1p(-gone) / sigma_t : rate > 0 ? mass / rate * (1 + gone / 2) : 0.0;
+  MarchPlace at{march_.t0[segment] + std::min(x, dt), segment, {}};
+  at.transmittance =
+      march_.extinction_channels == 1 ? Vec3d(begin * (1 - gone)) : march_.transmittance_at(segment, at.t);
+  return at;
 }
 
-double DensityDistribution::pdf(std::uint32_t i, const Vec3d& transmittance) const {
+double DensityDistribution::pdf(const MarchPlace& at) const {
   if (!available()) return 0;
   double pdf = 0;
   for (int c = 0; c < march_.channels; ++c)
     if (share_[c] > 0)
-      pdf += share_[c] * march_.sigma_s[c][i] * transmittance[c] / march_.scattered[c][march_.count];
+      pdf +=
+          share_[c] * march_.sigma_s[c][at.segment] * at.transmittance[c] / march_.scattered[c][march_.count];
   return pdf;
 }
 

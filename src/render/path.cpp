@@ -270,11 +270,10 @@ class PathTracer {
 
   bool continue_in_volume(PathState& s, const March& m, const LightStrategies& strategies,
                           double volume_probability) {
-    const SobolPoint v = point(Decision::direction, s);
-    const Scattering at =
-        draw_scattering(settings_, *path_, point(Decision::distance, s), volume_probability);
+    const SobolPoint v = point(Decision::continuation, s);
+    const Scattering at = draw_scattering(settings_, *path_, v[3], v[2], volume_probability);
     worker_.phase.set(world_, m, at.segment);
-    const float cosine_complement = worker_.phase.sample(v[0], v[1], v[2]);
+    const float cosine_complement = worker_.phase.sample(v[4], v[0], v[5]);
     const float pdf_phase = worker_.phase.pdf(cosine_complement);
     if (!(at.pdf > 0 && pdf_phase > 0)) return false;
 
@@ -283,7 +282,7 @@ class PathTracer {
     ++s.media_scatterings;
     const Vec3d x = s.ray.origin + s.ray.direction * at.t;
     const Vec3f w =
-        optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[3]);
+        optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[1]);
     s.origin = {PathOrigin::Kind::volume,
                 x,
                 at.pdf * pdf_phase,
@@ -296,7 +295,7 @@ class PathTracer {
   }
 
   bool continue_from_surface(PathState& s, const SurfacePoint& surface) {
-    const SobolPoint v = point(Decision::direction, s);
+    const SobolPoint v = point(Decision::continuation, s);
     const auto next = surface.sample(v[2], v[0], v[1], v[3]);
     if (!next) return false;
     s.throughput *= next->weight;

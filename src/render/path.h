@@ -27,7 +27,8 @@ struct PathSettings {
   // In media paths are followed through this many scatterings; the rest is approximated by `orders`.
   std::uint32_t real_scatterings = std::numeric_limits<std::uint32_t>::max();
   std::vector<ScatteringOrder> orders;
-  int groups = 1;  // of samples with independent random numbers (film.h)
+  bool jitters = false;  // some march is jittered: rays need seeds
+  int groups = 1;        // of samples with independent random numbers (film.h)
   // Rays after the last bounce are traced only when they could meet light that is not sampled directly, or
   // that competes with it by MIS.
   bool gathers_after_last = false;

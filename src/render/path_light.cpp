@@ -20,10 +20,10 @@ int light_samples(const PathSettings& settings, const PathState& s) {
   return s.depth == 0 ? settings.light_samples : 1;
 }
 
-// Of one of a path's shadow rays: what marches in uneven media are jittered by.
+// Of one of a path's shadow rays, for its jitter.
 std::uint32_t shadow_seed(const PathContext& context, const PathSlot& path, const PathState& s,
                           std::uint64_t counter) {
-  return context.world.features.heterogeneous ? path.sampler->bits(id(Decision::shadow, s), counter) : 0;
+  return context.settings.jitters ? path.sampler->bits(id(Decision::shadow, s), counter) : 0;
 }
 
 // A counter of shadow seeds for each kind of ray.
@@ -36,7 +36,7 @@ void light_volume_by_emission(const PathContext& context, PathSlot& path, const 
   const int samples = light_samples(context.settings, s);
   for (int k = 0; k < samples; ++k) {
     const SobolPoint u = many(path, Decision::emission_distance, s, k, samples);
-    const Scattering at = draw_scattering(context.settings, path, u, 1);
+    const Scattering at = draw_scattering(context.settings, path, u[0], u[1], 1);
     sample_volume_emission(context.world, *context.settings.emission, path.march(), at,
                            many(path, Decision::emission, s, k, samples),
                            shadow_seed(context, path, s, emission_seeds + k), s.throughput,

@@ -11,6 +11,7 @@ PathSettings path_settings(const compile::CompiledScene& world, const RenderOpti
   settings.transmittance = options.transmittance;
   // Light at every step, and flights, take their one sample a place.
   settings.light_samples = options.method == Method::decoupled ? world.scene.settings.light_samples : 1;
+  settings.jitters = f.heterogeneous || options.method == Method::brute_force;
   settings.bounces = world.scene.settings.bounces;
   if (const auto& approximation = world.scene.settings.multiple_scattering.approximate) {
     settings.real_scatterings = static_cast<std::uint32_t>(approximation->real);

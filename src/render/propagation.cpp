@@ -15,8 +15,7 @@ void request_propagation(const compile::CompiledScene& world, const PathSettings
                          compile::RayKind kind, Worker& worker) {
   const PathState& s = path.state;
   if (settings.method != Method::tracking) {
-    const std::uint32_t seed =
-        world.features.heterogeneous ? path.sampler->bits(id(Decision::jitter, s), 0) : 0;
+    const std::uint32_t seed = settings.jitters ? path.sampler->bits(id(Decision::jitter, s), 0) : 0;
     worker.march_requests.push_back({s.ray, kind, seed, &path.march()});
     return;
   }
@@ -48,7 +47,7 @@ void propagate(const compile::CompiledScene& world, const PathSettings& settings
   }
 }
 
-Scattering draw_scattering(const PathSettings& settings, PathSlot& path, const SobolPoint& u,
+Scattering draw_scattering(const PathSettings& settings, PathSlot& path, float u_channel, float u,
                            double volume_probability) {
   const March& m = path.march();
   if (flies(settings.method)) {
@@ -56,12 +55,9 @@ Scattering draw_scattering(const PathSettings& settings, PathSlot& path, const S
     return {flight.t, m.segment_at(flight.t), flight.density, flight.weight};
   }
   const DensityDistribution& density = path.light().density();
-  Scattering out;
-  out.t = density.sample(u[0], u[1]);
-  out.segment = m.segment_at(out.t);
-  const Vec3d transmittance = m.transmittance_at(out.segment, out.t);
-  out.pdf = density.pdf(out.segment, transmittance) * volume_probability;
-  out.weight = m.sigma_s_at(out.segment) * Rgb(transmittance) * static_cast<float>(1 / out.pdf);
+  const MarchPlace at = density.sample(u_channel, u);
+  Scattering out{at.t, at.segment, density.pdf(at) * volume_probability, {}};
+  out.weight = m.sigma_s_at(at.segment) * Rgb(at.transmittance) * static_cast<float>(1 / out.pdf);
   return out;
 }
 

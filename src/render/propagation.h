@@ -26,7 +26,7 @@ struct Scattering {
   Rgb weight;      // sigma_s T / pdf
 };
 // For two numbers in [0, 1), which methods that fly do not ask for.
-Scattering draw_scattering(const PathSettings& settings, PathSlot& path, const SobolPoint& u,
+Scattering draw_scattering(const PathSettings& settings, PathSlot& path, float u_channel, float u,
                            double volume_probability);
 
 }  // namespace tyndall::render

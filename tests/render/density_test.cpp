@@ -44,14 +44,14 @@ TEST(DensityDistribution, SamplesFollowTheDensity) {
       for (int k = 0; k < fine; ++k) {
         const double t = lo + (i + (k + 0.5) / fine) * width;
         if (t > 4 && t < 6) continue;  // the gap
-        expected[i] += density.pdf(m.segment_at(t), t) * width / fine;
+        expected[i] += density.pdf(m.place_at(t)) * width / fine;
       }
       total += expected[i];
     }
     EXPECT_NEAR(total, 1, 1e-4);
     for (std::uint32_t s = 0; s < draws; ++s) {
       const Sampler sampler(4, 0, 1, 2, s);
-      const double t = density.sample(sampler.independent(1, 0), sampler.independent(2, 0));
+      const double t = density.sample(sampler.independent(1, 0), sampler.independent(2, 0)).t;
       ++found[static_cast<std::size_t>(std::min((t - lo) / width, cells - 1.0))];
     }
     double chi_squared = 0;

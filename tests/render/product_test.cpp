@@ -91,7 +91,7 @@ TEST(DistanceMixture, SamplesFollowTheDensity) {
         for (int k = 0; k < fine; ++k) {
           const double v = v0 + (k + 0.5) / fine * (v1 - v0), t = c + scale * std::sinh(v);
           if (t > 4 && t < 5) continue;  // the gap
-          expected[i] += mixture.pdf(m.segment_at(t), t) * scale * std::cosh(v) * (v1 - v0) / fine;
+          expected[i] += mixture.pdf(m.place_at(t)) * scale * std::cosh(v) * (v1 - v0) / fine;
         }
         total += expected[i];
       }
@@ -99,7 +99,7 @@ TEST(DistanceMixture, SamplesFollowTheDensity) {
       for (std::uint32_t s = 0; s < draws; ++s) {
         const Sampler sampler(4, 0, 1, 2, s);
         const double t =
-            mixture.sample(sampler.independent(0, 0), sampler.independent(1, 0), sampler.independent(2, 0));
+            mixture.sample(sampler.independent(0, 0), sampler.independent(1, 0), sampler.independent(2, 0)).t;
         const auto after = std::upper_bound(edges.begin(), edges.end() - 1, t);
         ++found[static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - edges.begin() - 1, 0))];
       }
@@ -126,8 +126,8 @@ TEST(DistanceMixture, ProductIsNeverFarBelowTheDensity) {
     const DistanceMixture mixture(w.lights[0], m, density, Rgb(1), Distance::product,
                                   optics::sample_pivot(light, 0.3f, 0.8f), phase, worker);
     for (double t = 1.001; t < 7; t += 0.01) {
-      const std::uint32_t segment = m.segment_at(t);
-      EXPECT_GE(mixture.pdf(segment, t), 0.04 * density.pdf(segment, t)) << t;
+      const MarchPlace at = m.place_at(t);
+      EXPECT_GE(mixture.pdf(at), 0.04 * density.pdf(at)) << t;
     }
   }
 }
