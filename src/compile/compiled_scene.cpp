@@ -244,6 +244,8 @@ CompiledScene compile(scene::Scene scene) {
       if (auto* mesh = std::get_if<optics::MeshLight>(&world.lights[light.index])) mesh->drawn = false;
     }
   }
+  for (std::uint32_t i = 0; i < world.lights.size(); ++i)
+    if (std::holds_alternative<optics::DistantLight>(world.lights[i])) world.distant_lights.push_back(i);
   if (world.lights.size() > few_lights)
     world.light_tree = std::make_unique<const LightTree>(world.lights, light_moves);
 

@@ -152,6 +152,7 @@ class CompiledScene {
   // scene.lights, moved to render space; then shapes whose material glows alike everywhere.
   std::vector<optics::Light> lights;
   std::vector<const std::vector<scene::LightInstance>*> light_motion;  // keys; empty when none moves
+  std::vector<std::uint32_t> distant_lights;                           // indices of lights
   std::unique_ptr<const LightTree> light_tree;                         // when there are many
   std::unique_ptr<Geometry> geometry;
   std::unique_ptr<const Solids> solids;              // when Features::nested_glass

@@ -21,10 +21,14 @@ enum class Decision : std::uint8_t {
   emission,           // cell of a medium that emits, 3 of the point in it
   emission_surface,   // the same at surfaces
   emission_distance,  // of the place that it lights: channel, t
+  sunward,            // 2 of the direction, light, lobe, one more of the direction
 };
 
-// The sequence of a decision at one path segment. Branches: a camera ray continues both in the volume and
-// behind it.
+// A branch of a path: a camera ray continues both in the volume and behind it, which has bit 0; rays towards
+// distant lights have bit 1.
+inline constexpr std::uint32_t behind_branch = 1, sunward_branch = 2;
+
+// The sequence of a decision at one path segment.
 constexpr std::uint64_t decision(Decision d, std::uint32_t depth, std::uint32_t branch) {
   return (std::uint64_t{depth} << 16) | (std::uint64_t{branch} << 8) | static_cast<std::uint64_t>(d);
 }

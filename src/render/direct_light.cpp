@@ -56,6 +56,8 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
   const std::uint32_t index = lights_.sample(u_light);
   const compile::LightAt light_now(*world_, index, march_->ray.time);
   const optics::Light& light = *light_now;
+  const bool distant = std::holds_alternative<optics::DistantLight>(light);
+  if (distant_alone_ && !distant) return;
   const auto pivot = optics::sample_pivot(light, point[3], point[4]);
 
   const DistanceMixture distances(light, *march_, *density_, throughput_, distance_, pivot, typical_phase_,
@@ -73,14 +75,14 @@ void LightStrategies::sample(const SobolPoint& point, std::uint32_t shadow_seed,
   worker.phase.set(*world_, *march_, at.segment);
   const float m = optics::one_minus_cos(Vec3f(march_->ray.direction), Vec3f(drawn->direction));
   const double choice = lights_.probability(index);
-  double share_of_c = 1;
+  double share = distant ? share_of_distant_ : 1;
   if (continues && drawn->pdf_solid_angle > 0) {
     const double p = choice * pdf_t * drawn->pdf_solid_angle;
-    share_of_c = balance(samples, p, volume_probability * density_->pdf(at) * worker.phase.pdf(m));
+    share *= balance(samples, p, volume_probability * density_->pdf(at) * worker.phase.pdf(m));
   }
   const Rgb carried = weight * march_->sigma_s_at(at.segment) * Rgb(at.transmittance) *
                       static_cast<float>(1 / (choice * pdf_t * samples));
-  add_ray({*drawn, index, x, at.segment, carried, share_of_c}, shadow_seed, worker);
+  add_ray({*drawn, index, x, at.segment, carried, share}, shadow_seed, worker);
 }
 
 void LightStrategies::add_ray(const Arrival& a, std::uint32_t shadow_seed, Worker& worker) const {

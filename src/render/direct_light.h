@@ -35,13 +35,19 @@ class LightStrategies {
   // Adds the shadow rays of one sample (light, strategy, t, light u, light v in `point`) to the worker's
   // batch, their contribution multiplied by `weight`. `continues` tells whether strategy C competes, with
   // probability `volume_probability` of continuing in the volume; `samples` of these samples are taken.
+  // Of distant lights only `share_of_distant` counts; with `distant_alone` no others do, nor higher orders.
   void sample(const SobolPoint& point, std::uint32_t shadow_seed, const Rgb& weight, bool continues,
               double volume_probability, int samples, Worker& worker);
+  void set_distant(float share, bool alone) {
+    share_of_distant_ = share;
+    distant_alone_ = alone;
+  }
 
   // Density [1/m/sr] with which `sample` draws the point at t of segment i and the direction from there to
   // `y` on the light's surface with this normal.
   double pdf(std::uint32_t light, std::uint32_t segment, double t, const Vec3d& direction, const Vec3d& y,
              const Vec3d& normal, Worker& worker) const;
+  const LightChoice& lights() const { return lights_; }
   const DensityDistribution& density() const { return *density_; }
 
   // Of methods that fly (flight_light.cpp): `aim` before the flight chooses a light and the point of the ray,
@@ -95,6 +101,8 @@ class LightStrategies {
   Method method_ = Method::decoupled;
   Distance distance_ = Distance::mis;
   std::span<const ScatteringOrder> orders_;
+  float share_of_distant_ = 1;
+  bool distant_alone_ = false;
   const Flight* flight_ = nullptr;
 };
 

@@ -124,11 +124,17 @@ class PathTracer {
     if (trace_)
       say("{}depth {} ray from ({:.6g}, {:.6g}, {:.6g}) along ({:.6g}, {:.6g}, {:.6g}): {} segments, "
           "transmittance {:.6g}, throughput {:.6g}\n",
-          s.branch ? "  behind: " : "", s.depth, s.ray.origin.x + world_.origin.x,
-          s.ray.origin.y + world_.origin.y, s.ray.origin.z + world_.origin.z, s.ray.direction.x,
-          s.ray.direction.y, s.ray.direction.z, m.count, luminance(m.end_transmittance()),
-          luminance(s.throughput));
+          s.is_sunward() ? "  towards the sun: "
+          : s.branch     ? "  behind: "
+                         : "",
+          s.depth, s.ray.origin.x + world_.origin.x, s.ray.origin.y + world_.origin.y,
+          s.ray.origin.z + world_.origin.z, s.ray.direction.x, s.ray.direction.y, s.ray.direction.z, m.count,
+          luminance(m.end_transmittance()), luminance(s.throughput));
 
+    if (s.is_sunward()) {
+      if (!aovs_.empty()) aovs_[path_->sample].cost += 1 + m.count;
+      return light_sunward(s, m);
+    }
     gather_emission(s, m);
     meet_surfaces(s, m);
     if (!aovs_.empty()) record(s, m);
@@ -223,6 +229,15 @@ class PathTracer {
     worker_.emission_rays.clear();
   }
 
+  // A ray that was sent towards distant lights ends with what they bring.
+  bool light_sunward(const PathState& s, const March& m) {
+    LightStrategies& strategies = path_->light();
+    strategies.set(world_, m, s.throughput, settings_.method, settings_.distance, {});
+    strategies.set_distant(1, true);
+    if (m.scatters()) light_volume(context_, *path_, s, strategies, false, 1);
+    return false;
+  }
+
   // Direct light in the volume and on a surface, and the choice of the next ray.
   bool scatter(PathState& s, const March& m, LightStrategies& strategies, bool continues) {
     const double volume_mass = std::max(0.0f, luminance(s.throughput * m.total_scattered())),
@@ -237,6 +252,7 @@ class PathTracer {
     if (!flies(settings_.method))
       strategies.set(world_, m, s.throughput, settings_.method, settings_.distance,
                      settings_.orders_after(s.media_scatterings));
+    strategies.set_distant(s.share_of_distant, false);
     if (volume_mass > 0) light_volume(context_, *path_, s, strategies, volume_continues, volume_probability);
 
     const bool chooses = surface_mass > 0 && (!both || met_.several());
@@ -253,14 +269,13 @@ class PathTracer {
         s = next;
         return goes_on;
       }
-      if (goes_on) follow_behind(next);
+      if (goes_on) follow(next);  // a camera ray that meets both medium and surface goes on twice
     }
     return volume_mass > 0 && volume_continues && continue_in_volume(s, m, strategies, volume_probability);
   }
 
-  // A camera ray that meets both medium and surface goes on twice. The new path takes its first step in the
-  // next round.
-  void follow_behind(const PathState& state) {
+  // One more path of the sample at work; it takes its first step in the next round.
+  void follow(const PathState& state) {
     PathSlot& from = *path_;
     PathSlot& path = new_slot();
     path.state = state;
@@ -277,21 +292,47 @@ class PathTracer {
     const float pdf_phase = worker_.phase.pdf(cosine_complement);
     if (!(at.pdf > 0 && pdf_phase > 0)) return false;
 
-    s.throughput *= at.weight * worker_.phase.eval(cosine_complement) * (1 / pdf_phase);
+    s.throughput *= at.weight;
     s.first_in_volume |= s.depth == 0;
     ++s.media_scatterings;
     const Vec3d x = s.ray.origin + s.ray.direction * at.t;
     const Vec3f w =
         optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[1]);
-    s.origin = {PathOrigin::Kind::volume,
-                x,
-                at.pdf * pdf_phase,
-                volume_probability * pdf_phase,
-                &strategies,
-                at.segment,
-                at.t};
+    const float share_of_distant = share_with_sunward(s, strategies, x, w, pdf_phase, v[6]);
+    s.throughput *= worker_.phase.eval(cosine_complement) * (1 / pdf_phase);
+    s.origin = {PathOrigin::Kind::volume, x,           at.pdf * pdf_phase, volume_probability * pdf_phase,
+                s.share_of_distant,       &strategies, at.segment,         at.t};
+    s.share_of_distant = share_of_distant;
     s.ray = {x, normalize(Vec3d(w)), infinity, s.ray.time};
     return next_depth(s);
+  }
+
+  // Sends a ray from x towards distant lights, by chance. Gives what is left of their light for the path
+  // itself, which goes on along w with this density; s is the path at x without its next direction.
+  float share_with_sunward(const PathState& s, const LightStrategies& strategies, const Vec3d& x,
+                           const Vec3f& w, float pdf, float u) {
+    if (!settings_.sunward || s.depth + 1 > static_cast<std::uint32_t>(settings_.bounces) ||
+        s.media_scatterings > settings_.real_scatterings)
+      return 1;
+    SunwardDirections& sunward = worker_.sunward;
+    sunward.set(world_, strategies.lights(), worker_.phase, s.ray.time);
+    const float chance = sunward.chance();
+    if (chance == 0) return 1;
+    if (u < chance) {
+      const SobolPoint v = point(Decision::sunward, s);
+      const Vec3f toward = sunward.sample(v[2], v[3], v[0], v[4], v[1]);
+      const float turn = optics::one_minus_cos(Vec3f(s.ray.direction), toward);
+      const float density = worker_.phase.pdf(turn) + chance * sunward.pdf(toward);
+      PathState ray = s;
+      ray.throughput *= worker_.phase.eval(turn) * (1 / density);
+      ray.ray = {x, normalize(Vec3d(toward)), infinity, s.ray.time};
+      ray.branch |= sunward_branch;
+      ray.share_of_distant = 1;
+      ray.origin.kind = PathOrigin::Kind::volume;
+      ++ray.depth;
+      follow(ray);
+    }
+    return pdf / (pdf + chance * sunward.pdf(w));
   }
 
   bool continue_from_surface(PathState& s, const SurfacePoint& surface) {
@@ -304,13 +345,15 @@ class PathTracer {
                 start,
                 next->pdf,
                 next->pdf,
+                1,
                 nullptr,
                 0,
                 0};
     s.ray = {start, next->direction, infinity, s.ray.time};
     if (surface.transmits && dot(surface.normal, next->direction) < 0)
       s.index_scale *= static_cast<float>(sqr(surface.eta));
-    s.branch = s.branch || s.depth == 0;
+    if (s.depth == 0) s.branch |= behind_branch;
+    s.share_of_distant = 1;
     return next_depth(s);
   }
 
@@ -344,8 +387,14 @@ class PathTracer {
       const Rgb radiance =
           optics::radiance_from_infinity(*compile::LightAt(world_, i, s.ray.time), s.ray.direction);
       if (!is_black(radiance))
-        add(at_end * radiance * weight(s, i, {}, {}), s.part(s.depth), "a light at infinity");
+        add(at_end * radiance * weight(s, i, {}, {}) * share_of_met(s, i), s.part(s.depth),
+            "a light at infinity");
     }
+  }
+
+  // Of the light that a ray from a medium meets: of distant ones part was left to rays sent for it.
+  float share_of_met(const PathState& s, std::uint32_t light) const {
+    return std::holds_alternative<optics::DistantLight>(world_.lights[light]) ? s.origin.share_of_distant : 1;
   }
 
   void gather_light(const PathState& s, const compile::SurfaceHit& hit, const Rgb& at_end) {

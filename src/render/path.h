@@ -27,6 +27,7 @@ struct PathSettings {
   // In media paths are followed through this many scatterings; the rest is approximated by `orders`.
   std::uint32_t real_scatterings = std::numeric_limits<std::uint32_t>::max();
   std::vector<ScatteringOrder> orders;
+  bool sunward = false;  // rays towards distant lights are sent
   bool jitters = false;  // some march is jittered: rays need seeds
   int groups = 1;        // of samples with independent random numbers (film.h)
   // Rays after the last bounce are traced only when they could meet light that is not sampled directly, or

@@ -48,7 +48,8 @@ void light_volume_by_emission(const PathContext& context, PathSlot& path, const 
 
 void light_volume(const PathContext& context, PathSlot& path, const PathState& s, LightStrategies& strategies,
                   bool continues, double volume_probability) {
-  if (context.settings.emission) light_volume_by_emission(context, path, s, continues, volume_probability);
+  if (context.settings.emission && !s.is_sunward())
+    light_volume_by_emission(context, path, s, continues, volume_probability);
   if (strategies.empty()) return;
   context.worker.shadows.set_sample(path.sample, s.direct_part(), s.higher_part());
   const int samples = light_samples(context.settings, s);

@@ -9,6 +9,7 @@
 #include "compile/compiled_scene.h"
 #include "render/aov.h"
 #include "render/crossings.h"
+#include "render/decisions.h"
 #include "render/direct_light.h"
 #include "render/flight.h"
 #include "render/march.h"
@@ -22,6 +23,7 @@ struct PathOrigin {
   Vec3d position;
   double pdf = 0;                               // volume: per metre and steradian; surface: per steradian
   double direction_pdf = 0;                     // of both, per steradian, once the place is there
+  float share_of_distant = 1;                   // volume: of the ray that was scattered
   const LightStrategies* strategies = nullptr;  // volume: of the ray that was scattered
   std::uint32_t segment = 0;
   double t = 0;
@@ -36,10 +38,14 @@ struct PathState {
   float index_scale = 1;
   std::uint32_t depth = 0;              // scatterings so far
   std::uint32_t media_scatterings = 0;  // of them in media
-  std::uint32_t branch = 0;
+  std::uint32_t branch = 0;             // decisions.h
+  // Of the light that distant lights bring to media along this ray: the rest is left to rays that are sent
+  // for it (sunward.h).
+  float share_of_distant = 1;
   bool first_in_volume = false;  // the first scattering was in a medium
   PathOrigin origin;
 
+  bool is_sunward() const { return (branch & sunward_branch) != 0; }
   // The part of the picture that light belongs to which arrives here after being scattered so often.
   LightPart part(std::uint32_t scatterings) const {
     if (!first_in_volume) return LightPart::other;

@@ -42,6 +42,7 @@ struct RenderOptions {
   Distance distance = Distance::product;  // of the decoupled method; of tracking as far as it has them
   Transmittance transmittance = Transmittance::march;
   bool emission_sampling = true;  // media that emit are sampled as lights; false to measure what that saves
+  bool sunward = true;            // rays are sent towards distant lights (sunward.h); the same
   // Half-open pixel rectangle and sample range; defaults: everything.
   struct Crop {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;

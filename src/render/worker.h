@@ -17,6 +17,7 @@
 #include "render/march.h"
 #include "render/product.h"
 #include "render/render.h"
+#include "render/sunward.h"
 #include "render/transmittance.h"
 #include "vm/machine.h"
 
@@ -77,6 +78,7 @@ struct Worker {
   std::vector<float> march_pool;  // outputs of the media's programs, of the rays that are marched together
   LightChoice surface_lights;
   PhaseMixture phase;
+  SunwardDirections sunward;
   ShadowBatch shadows;
   EmissionBatch emission_rays;
   std::vector<Rgb> higher_contributions;  // of one shadow ray

@@ -28,6 +28,9 @@ bool bench_hair();
 // when a scene cannot be read.
 bool bench_scattering();
 
+// Rays towards the sun on media that scatter forward, at equal time. False when a scene cannot be read.
+bool bench_sunward();
+
 // The estimators of transmittance on known densities: bias and error at each cost.
 void bench_transmittance();
 

@@ -28,6 +28,7 @@ constexpr std::array benchmarks{
     Benchmark{"fire", false, [](double) { return bench_fire(); }},
     Benchmark{"hair", false, [](double) { return bench_hair(); }},
     Benchmark{"scattering", false, [](double) { return bench_scattering(); }},
+    Benchmark{"sunward", false, [](double) { return bench_sunward(); }},
     Benchmark{"transmittance", false, [](double) { return bench_transmittance(), true; }},
     Benchmark{"sampling", false, [](double) { return bench_sampling(); }},
     Benchmark{"steps", false, [](double) { return bench_steps(); }},
