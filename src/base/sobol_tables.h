@@ -51,11 +51,13 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
 using ByteTables = std::array<std::array<std::array<std::uint32_t, sobol_dimensions>, 256>, 4>;
 constexpr ByteTables byte_tables() {
   ByteTables tables{};
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::uint32_t b = 0; b < 256; ++b)
-      for (std::size_t d = 0; d < sobol_dimensions; ++d)
-        for (std::uint32_t bit = 0; bit < 8; ++bit)
-          if ((b >> bit) & 1u) tables[k][b][d] ^= reverse_bits(matrices[d][31 - (8 * k + bit)]);
+  for (std::uint32_t k = 0; k < 4; ++k)
+    for (std::uint32_t bit = 0; bit < 8; ++bit)
+      for (std::size_t d = 0; d < sobol_dimensions; ++d) {
+        const std::uint32_t added = reverse_bits(matrices[d][31 - (8 * k + bit)]);
+        for (std::uint32_t b = 1u << bit; b < 2u << bit; ++b)
+          tables[k][b][d] = tables[k][b - (1u << bit)][d] ^ added;
+      }
   return tables;
 }
 alignas(32) inline constexpr ByteTables tables = byte_tables();

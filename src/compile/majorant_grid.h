@@ -134,6 +134,7 @@ class MajorantGrid {
   // and what of a stay on a ray in the medium's space, of any direction but zero, may hold anything: what
   // lies outside the box around all blocks that are not proved empty does not. Empty when nothing may.
   Intervald occupied_part(const Vec3d& origin, const Vec3d& direction, Intervald stay) const {
+    if (occupied_.lo.x > occupied_.hi.x) return {};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double lo = occupied_.lo[axis] - origin[axis], hi = occupied_.hi[axis] - origin[axis];
       if (direction[axis] == 0) {

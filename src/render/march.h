@@ -180,7 +180,8 @@ class PhaseMixture {
     float probability;
   };
   std::vector<Lobe> lobes_;
-  std::uint32_t constant_medium_ = compile::no_index;  // whose lobes these are, for ever
+  // Whose lobes these are, for ever; null: they are of one place.
+  const scene::Medium* constant_medium_ = nullptr;
 };
 
 }  // namespace tyndall::render

@@ -57,11 +57,13 @@ double DensityDistribution::pdf(const MarchPlace& at) const {
 }
 
 void PhaseMixture::set(const compile::CompiledScene& world, const March& m, std::uint32_t segment) {
-  const std::uint32_t medium_of_all =
-      m.blocks.size() == 1 ? world.volumes[m.blocks[0].volume].medium : compile::no_index;
-  const bool constant = medium_of_all != compile::no_index && world.media[medium_of_all].constant;
-  if (constant && medium_of_all == constant_medium_) return;
-  constant_medium_ = constant ? medium_of_all : compile::no_index;
+  const scene::Medium* constant = nullptr;
+  if (m.blocks.size() == 1) {
+    const std::uint32_t medium = world.volumes[m.blocks[0].volume].medium;
+    if (world.media[medium].constant) constant = &world.scene.media[medium];
+  }
+  if (constant && constant == constant_medium_) return;
+  constant_medium_ = constant;
   lobes_.clear();
   Rgb total;
   for (const Block& b : m.blocks) {
