@@ -67,7 +67,7 @@ inline Estimate diffuse_estimate(const Slab& row, SlabView view, const Way& way)
   std::vector<double> sums(16, 0.0);
   for (const QuadraturePoint& mu : gauss_legendre(16)) {
     SceneBuilder builder = slab_at(row, view, mu.place);
-    builder.image(8, 8, 32);
+    builder.image(8, 8, way.unbiased ? 128 : 32);  // tracking is four times as noisy
     for (std::size_t seed = 0; seed < sums.size(); ++seed) {
       builder.scene.settings.seed = seed + 1;
       const render::Film film = render::render(compile::compile(builder.scene), way.options()).film;
