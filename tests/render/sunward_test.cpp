@@ -25,7 +25,7 @@ struct Case {
 
 // A slab that scatters forward, with a ball and a ground in it, under what is named.
 std::string fog(const std::string& lights, const std::string& medium, const std::string& settings) {
-  return "render { resolution: (8, 8)  samples: 32  step: 0.1  bounces: " + settings +
+  return "render { resolution: (4, 4)  samples: 32  step: 0.1  bounces: " + settings +
          " }\ncamera perspective { from: (0, 3, 5)  to: (0, 0.5, 0)  fov: 40deg }\n"
          "volume { in: box { min: (-4, 0, -4)  max: (4, 2, 4) }  medium: { " +
          medium +
