@@ -19,9 +19,6 @@ bool reads_world(const vm::Program& program) {
   return std::any_of(program.inputs.begin(), program.inputs.end(),
                      [](vm::Input input) { return vm::Input::P_x <= input && input <= vm::Input::P_z; });
 }
-bool reads_time(const vm::Program& program) {
-  return std::find(program.inputs.begin(), program.inputs.end(), vm::Input::time) != program.inputs.end();
-}
 
 // Of the shutter, where a medium changes while it is open: bounds over all of it would hold for everything
 // that the medium is in between. A power of two: where one ends is exact.
@@ -127,7 +124,8 @@ void add_grids(CompiledScene& world) {
     if (world.media[volume.medium].homogeneous) continue;
     const scene::Medium& medium = world.scene.media[volume.medium];
     const bool in_world = reads_world(medium.full), sweeps = in_world && volume.motion;
-    if (world.shutter_seconds > 0 && (sweeps || reads_time(medium.full))) volume.time_slabs = time_slabs;
+    if (world.shutter_seconds > 0 && (sweeps || medium.full.reads(vm::Input::time)))
+      volume.time_slabs = time_slabs;
     MajorantGrid::Domain domain;
     domain.box = snapped(box_in_medium(world, volume));
     if (in_world && !sweeps) domain.world_from_medium = {volumes[v].world_from_medium};

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "base/parallel.h"
@@ -10,10 +9,6 @@
 
 namespace tyndall::tools {
 namespace {
-
-bool reads_time(const vm::Program& program) {
-  return std::find(program.inputs.begin(), program.inputs.end(), vm::Input::time) != program.inputs.end();
-}
 
 std::string program_line(std::string_view name, const vm::Program& program) {
   return fmt::format("  {:<22}{} instructions a segment, {} once a batch, {} registers\n", name,
@@ -52,7 +47,7 @@ std::string medium_features(const compile::CompiledScene& world) {
   for (const scene::Medium& medium : world.scene.media) {
     text += fmt::format("medium {}: {}{}\n", medium.name,
                         medium.homogeneous() ? "the same everywhere" : "varies in space",
-                        reads_time(medium.full) ? ", changes with time" : "");
+                        medium.full.reads(vm::Input::time) ? ", changes with time" : "");
     text += program_line("everything", medium.full);
     text += program_line("extinction alone", medium.extinction);
     std::vector<compile::GridSummary> grids;
