@@ -98,6 +98,7 @@ struct CompiledVolume {
   scene::Step step;
   bool skips = false;      // its grid finds so much empty or uniform that looking into it pays
   double widest_step = 0;  // of an automatic step [m]
+  float majorant = 0;      // of its grids: nothing in it is denser [1/m]
   // Index of grids when the medium varies in space: the first of `time_slabs`, one for each of as many equal
   // parts of the time that the shutter is open. A medium that is the same all that time has one.
   std::uint32_t grid = no_index, time_slabs = 1;

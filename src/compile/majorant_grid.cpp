@@ -104,6 +104,7 @@ void MajorantGrid::survey(BoundsScratch& scratch) {
   constexpr std::uint32_t along = brick_side / block_side;  // blocks of a brick
   const Vec3d size = cell_size_ * double{block_side};
   std::size_t plain = 0;
+  majorant_ = 0;
   Bounds occupied{Vec3d(infinity), Vec3d(-infinity)};
   // In slices of one layer of blocks.
   const std::uint32_t nx = bricks_[0] * along, ny = bricks_[1] * along, nz = bricks_[2] * along;
@@ -117,9 +118,10 @@ void MajorantGrid::survey(BoundsScratch& scratch) {
     evaluate(boxes, scratch);
     for (std::uint32_t y = 0; y < ny; ++y)
       for (std::uint32_t x = 0; x < nx; ++x) {
-        const CellKind kind = summary(std::size_t{y} * nx + x, 1, boxes, scratch).kind;
-        plain += kind != CellKind::varying;
-        if (kind == CellKind::empty) continue;
+        const CellBounds block = summary(std::size_t{y} * nx + x, 1, boxes, scratch);
+        plain += block.kind != CellKind::varying;
+        majorant_ = std::max(majorant_, block.majorant);
+        if (block.kind == CellKind::empty) continue;
         const Vec3d lo = corner(x, y, z), hi = corner(x + 1, y + 1, z + 1);
         for (std::size_t axis = 0; axis < 3; ++axis) {
           occupied.lo[axis] = std::min(occupied.lo[axis], lo[axis]);

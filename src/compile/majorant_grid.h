@@ -131,6 +131,8 @@ class MajorantGrid {
   void survey(BoundsScratch& scratch);
   // After it: the share of blocks that are proved empty or uniform,
   double plain_share() const { return plain_share_; }
+  // the largest majorant of a block [1/m],
+  float majorant() const { return majorant_; }
   // and what of a stay on a ray in the medium's space, of any direction but zero, may hold anything: what
   // lies outside the box around all blocks that are not proved empty does not. Empty when nothing may.
   Intervald occupied_part(const Vec3d& origin, const Vec3d& direction, Intervald stay) const {
@@ -168,6 +170,7 @@ class MajorantGrid {
   std::array<std::uint32_t, 3> bricks_{};
   Vec3d cell_size_;
   double plain_share_ = 0;
+  float majorant_ = largest_coefficient;
   Bounds occupied_;                         // whole blocks and a little more; of the domain before the survey
   std::vector<std::uint8_t> coefficients_;  // outputs that are not negative: extinction, scattering, emission
   mutable std::vector<std::atomic<Brick*>> made_;

@@ -164,6 +164,8 @@ void add_grids(CompiledScene& world) {
   for (CompiledVolume& volume : world.volumes) {
     if (volume.grid == no_index) continue;
     const auto first = plain.begin() + volume.grid;
+    for (std::uint32_t slab = 0; slab < volume.time_slabs; ++slab)
+      volume.majorant = std::max(volume.majorant, world.grids[volume.grid + slab]->majorant());
     volume.skips =
         std::accumulate(first, first + volume.time_slabs, 0.0) >= least_plain_share * volume.time_slabs;
   }

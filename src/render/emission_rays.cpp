@@ -27,7 +27,7 @@ std::span<const std::unique_ptr<EmissionRay>> EmissionBatch::trace(const compile
     r->ray.t_max = hit ? hit->t : infinity;
     r->march.crossings.clear();
     for (const Crossing& c : r->crossings) r->march.crossings.push_back({c.t, 1 - c.surface.opacity});
-    requests_.push_back({r->ray, kind, r->seed, &r->march});
+    requests_.push_back({r->ray, kind, r->seed, &r->march, true});
   }
   march(world, requests_, worker);
   for (const auto& r : rays) r->contribution *= r->march.emitted;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "render/dark.h"
+#include "render/march_sums.h"
 #include "render/medium_lanes.h"
 #include "render/worker.h"
 
@@ -37,7 +40,6 @@ class ActiveStretches {
 // where some volume is.
 void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
   m.regions.clear();
-  m.scattering_stretches.clear();
   std::vector<double>& edges = worker.edges;
   edges.clear();
   for (const Stretch& s : m.stretches) edges.insert(edges.end(), {s.t0, s.t1});
@@ -74,18 +76,13 @@ void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
       r.count = std::max(1u, static_cast<std::uint32_t>(r.count * std::min(1.0, shrink)));
   }
 
-  m.count = 0;
+  m.count = m.progress.laid = 0;
   for (Region& r : m.regions) {
-    r.first = m.count;
-    m.count += r.count;
-    if (!r.scatters) continue;
-    if (!m.scattering_stretches.empty() && m.scattering_stretches.back().hi == r.t.lo)
-      m.scattering_stretches.back().hi = r.t.hi;
-    else
-      m.scattering_stretches.push_back(r.t);
+    r.first = m.progress.laid;
+    m.progress.laid += r.count;
   }
-  m.t0.resize(m.count);
-  m.dt.resize(m.count);
+  m.t0.resize(m.progress.laid);
+  m.dt.resize(m.progress.laid);
   for (const Region& r : m.regions) {
     const double dt = r.t.length() / r.count;
     for (std::uint32_t k = 0; k < r.count; ++k) {
@@ -95,32 +92,36 @@ void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
   }
 }
 
-// The segments of each stretch.
-void lay_blocks(const CompiledScene& world, March& m) {
-  m.blocks.clear();
+// The blocks of segments [first, end).
+void lay_blocks(const CompiledScene& world, std::uint32_t first, std::uint32_t end, March& m) {
   for (const Stretch& s : m.stretches) {
     if (s.region_count == 0) continue;
-    const Region& first = m.regions[s.first_region];
-    const Region& last = m.regions[s.first_region + s.region_count - 1];
+    const Region& last_region = m.regions[s.first_region + s.region_count - 1];
+    const std::uint32_t from = std::max(first, m.regions[s.first_region].first),
+                        to = std::min(end, last_region.first + last_region.count);
+    if (from >= to) continue;
     Block block;
     block.volume = s.volume;
-    block.first = first.first;
-    block.count = last.first + last.count - first.first;
+    block.first = from;
+    block.count = to - from;
     block.row_length = world.media[world.volumes[s.volume].medium].homogeneous ? 1 : block.count;
     m.blocks.push_back(block);
   }
 }
 
-// The blocks of all rays, those of one medium next to each other: one batch each, whose rows they share.
-// Gives the floats that the batches' outputs take.
-std::size_t lay_batches(const CompiledScene& world, std::span<const MarchRequest> requests, Worker& worker) {
+// The new blocks of rays that go on, those of one medium next to each other: one batch each, whose rows they
+// share. Makes room for the batches' outputs behind those of earlier rounds.
+void lay_batches(const CompiledScene& world, std::span<const MarchRequest> requests,
+                 std::span<const std::uint32_t> going, Worker& worker) {
   std::vector<MarchBatchEntry>& entries = worker.march_batch;
   entries.clear();
-  for (std::uint32_t r = 0; r < requests.size(); ++r)
-    for (std::uint32_t b = 0; b < requests[r].out->blocks.size(); ++b)
-      entries.push_back({world.volumes[requests[r].out->blocks[b].volume].medium, r, b});
+  for (const std::uint32_t r : going) {
+    const March& m = *requests[r].out;
+    for (std::uint32_t b = m.progress.blocks; b < m.blocks.size(); ++b)
+      entries.push_back({world.volumes[m.blocks[b].volume].medium, r, b});
+  }
   std::sort(entries.begin(), entries.end());
-  std::size_t floats = 0;
+  std::size_t& floats = worker.march_floats;
   for (auto first = entries.begin(); first != entries.end();) {
     std::size_t lanes = 0;
     auto last = first;
@@ -132,7 +133,7 @@ std::size_t lay_batches(const CompiledScene& world, std::span<const MarchRequest
     for (; first != last; ++first) requests[first->request].out->blocks[first->block].pitch = lanes;
     floats += lanes * world.scene.media[std::prev(last)->medium].full.outputs.size();
   }
-  return floats;
+  if (worker.march_pool.size() < floats) worker.march_pool.resize(floats);
 }
 
 // Runs one medium's program over the segments of all rays in it.
@@ -170,10 +171,10 @@ void evaluate_batch(const CompiledScene& world, std::span<const MarchRequest> re
     clamp_bad_values(worker.outputs[k], count, world.media[medium].may_be_negative[k], medium, k, worker);
 }
 
-// Runs the programs: one batch a medium.
-void evaluate(const CompiledScene& world, std::span<const MarchRequest> requests, Worker& worker) {
-  const std::size_t floats = lay_batches(world, requests, worker);
-  if (worker.march_pool.size() < floats) worker.march_pool.resize(floats);
+// Runs the programs over the new blocks: one batch a medium.
+void evaluate(const CompiledScene& world, std::span<const MarchRequest> requests,
+              std::span<const std::uint32_t> going, Worker& worker) {
+  lay_batches(world, requests, going, worker);
   const std::span<const MarchBatchEntry> entries = worker.march_batch;
   for (std::size_t first = 0; first < entries.size();) {
     std::size_t last = first;
@@ -184,8 +185,8 @@ void evaluate(const CompiledScene& world, std::span<const MarchRequest> requests
 }
 
 // Adds one output of a block to a row of segments.
-void add_output(const March& m, const Block& b, std::size_t output, std::vector<float>& row) {
-  const float* from = m.pool + b.rows + output * b.pitch;
+void add_output(const float* pool, const Block& b, std::size_t output, std::vector<float>& row) {
+  const float* from = pool + b.rows + output * b.pitch;
   float* to = row.data() + b.first;
   if (b.row_length == 1)
     for (std::uint32_t k = 0; k < b.count; ++k) to[k] += from[0];
@@ -193,98 +194,91 @@ void add_output(const March& m, const Block& b, std::size_t output, std::vector<
     for (std::uint32_t k = 0; k < b.count; ++k) to[k] += from[k];
 }
 
-// Coefficients add where volumes overlap.
-void add_coefficients(const CompiledScene& world, March& m) {
+// Of the new blocks, which hold segments from m.count up to `end`. Coefficients add where volumes overlap.
+void add_coefficients(const CompiledScene& world, const float* pool, std::uint32_t end, March& m) {
   const bool emission = world.features.medium_emission;
+  const auto extend = [&](std::vector<float>& row) {
+    if (row.size() < end) row.resize(end);
+    std::fill(row.begin() + m.count, row.begin() + end, 0.0f);
+  };
   for (int c = 0; c < m.channels; ++c) {
-    m.sigma_s[c].assign(m.count, 0.0f);
-    if (emission) m.emission[c].assign(m.count, 0.0f);
+    extend(m.sigma_s[c]);
+    if (emission) extend(m.emission[c]);
   }
-  for (int c = 0; c < m.extinction_channels; ++c) m.sigma_t[c].assign(m.count, 0.0f);
-  for (const Block& b : m.blocks) {
+  for (int c = 0; c < m.extinction_channels; ++c) extend(m.sigma_t[c]);
+  for (; m.progress.blocks < m.blocks.size(); ++m.progress.blocks) {
+    const Block& b = m.blocks[m.progress.blocks];
     const scene::Medium& medium = world.scene.media[world.volumes[b.volume].medium];
     for (int c = 0; c < m.channels; ++c) {
-      add_output(m, b, medium.sigma_s[c], m.sigma_s[c]);
-      if (medium.emission) add_output(m, b, (*medium.emission)[c], m.emission[c]);
+      add_output(pool, b, medium.sigma_s[c], m.sigma_s[c]);
+      if (medium.emission) add_output(pool, b, (*medium.emission)[c], m.emission[c]);
     }
-    for (int c = 0; c < m.extinction_channels; ++c) add_output(m, b, medium.sigma_t[c], m.sigma_t[c]);
+    for (int c = 0; c < m.extinction_channels; ++c) add_output(pool, b, medium.sigma_t[c], m.sigma_t[c]);
   }
 }
 
-// Transmittance at every segment's start, and ∫ T over every segment (into `reach`), each exact for constant
-// coefficients.
-void accumulate_transmittance(int channel, const std::vector<float>& sigma_t, March& m,
-                              std::vector<double>& transmittance, std::vector<double>& reach) {
-  transmittance.resize(m.count + 1);
-  reach.resize(m.count);
-  double t = 1;
-  auto crossing = m.crossings.begin();
-  const auto cross_before = [&](double end) {
-    for (; crossing != m.crossings.end() && crossing->t <= end; ++crossing) {
-      crossing->before[channel] = static_cast<float>(t);
-      t *= crossing->pass;
-    }
-  };
-  for (std::uint32_t i = 0; i < m.count; ++i) {
-    cross_before(m.t0[i]);
-    transmittance[i] = t;
-    const double sigma = sigma_t[i], depth = sigma * m.dt[i];
-    reach[i] = t * m.dt[i];
-    if (depth == 0) continue;
-    // Either way 1 - T and the sum of sigma * reach are equal to rounding.
-    if (depth < 0.25) {
-      reach[i] *= exp_average(depth);
-      t -= sigma * reach[i];
-    } else {
-      const double through = std::exp(-depth);
-      reach[i] *= (1 - through) / depth;
-      t *= through;
-    }
-  }
-  cross_before(infinity);
-  transmittance[m.count] = t;
+// To be evaluated from the start.
+std::vector<std::uint32_t>& all_of(std::span<const MarchRequest> requests, Worker& worker) {
+  worker.march_floats = 0;
+  worker.marches_going.resize(requests.size());
+  std::iota(worker.marches_going.begin(), worker.marches_going.end(), 0u);
+  return worker.marches_going;
 }
 
-// Running sums from the ray's start.
-void accumulate(const CompiledScene& world, Worker& worker, March& m) {
-  Vec3d emitted;
-  for (int c = 0; c < m.channels; ++c) {
-    if (c < m.extinction_channels)
-      accumulate_transmittance(c, m.sigma_t[c], m, m.transmittance[c], worker.reach);
-    m.scattered[c].resize(m.count + 1);
-    double s = 0;
-    for (std::uint32_t i = 0; i < m.count; ++i) {
-      m.scattered[c][i] = s;
-      s += m.sigma_s[c][i] * worker.reach[i];
-    }
-    m.scattered[c][m.count] = s;
-    if (world.features.medium_emission)
-      for (std::uint32_t i = 0; i < m.count; ++i) emitted[c] += m.emission[c][i] * worker.reach[i];
+void begin_march(const CompiledScene& world, const MarchRequest& request, Worker& worker) {
+  March& m = *request.out;
+  m.ray = request.ray;
+  m.channels = world.features.chromatic ? 3 : 1;
+  m.extinction_channels = world.features.chromatic_extinction ? 3 : 1;
+  m.stretches.clear();
+  m.blocks.clear();
+  m.progress.blocks = 0;
+  if (world.features.volumes) find_stretches(world, m.ray, request.kind, worker, m.stretches);
+  m.progress.before_dark = segments_before_dark(world, m.stretches);
+  lay_segments(world, worker, m);
+  begin_sums(m);
+}
+
+// What scatters of the part that was marched.
+void note_scattering_stretches(March& m) {
+  m.scattering_stretches.clear();
+  for (const Region& r : m.regions) {
+    if (r.first >= m.count) break;
+    if (!r.scatters) continue;
+    const double end = r.first + r.count > m.count ? m.t0[m.count] : r.t.hi;
+    if (!m.scattering_stretches.empty() && m.scattering_stretches.back().hi == r.t.lo)
+      m.scattering_stretches.back().hi = end;
+    else
+      m.scattering_stretches.push_back({r.t.lo, end});
   }
-  if (m.extinction_channels == 1)
-    for (MarchCrossing& crossing : m.crossings) crossing.before = Rgb(crossing.before.x);
-  m.emitted = m.channels == 1 ? Rgb(static_cast<float>(emitted.x)) : Rgb(emitted);
 }
 
 }  // namespace
 
 void march(const CompiledScene& world, std::span<const MarchRequest> requests, Worker& worker) {
-  for (const MarchRequest& request : requests) {
-    March& m = *request.out;
-    m.ray = request.ray;
-    m.channels = world.features.chromatic ? 3 : 1;
-    m.extinction_channels = world.features.chromatic_extinction ? 3 : 1;
-    m.stretches.clear();
-    if (world.features.volumes) find_stretches(world, m.ray, request.kind, worker, m.stretches);
-    lay_segments(world, worker, m);
-    lay_blocks(world, m);
+  for (const MarchRequest& request : requests) begin_march(world, request, worker);
+  std::vector<std::uint32_t>& going = all_of(requests, worker);
+  for (std::uint32_t round = 0; !going.empty(); ++round) {
+    for (const std::uint32_t i : going) {
+      March& m = *requests[i].out;
+      m.progress.round_end = requests[i].may_end_dark
+                                 ? segments_until(m.progress.before_dark, round, m.progress.laid)
+                                 : m.progress.laid;
+      lay_blocks(world, m.count, m.progress.round_end, m);
+    }
+    evaluate(world, requests, going, worker);
+    std::erase_if(going, [&](std::uint32_t i) {
+      March& m = *requests[i].out;
+      add_coefficients(world, worker.march_pool.data(), m.progress.round_end, m);
+      add_segments(world, m.progress.round_end, worker.reach, m);
+      return m.count == m.progress.laid || !goes_on_in_the_dark(requests[i].seed, round, m);
+    });
   }
-  evaluate(world, requests, worker);
   for (const MarchRequest& request : requests) {
     March& m = *request.out;
     m.pool = worker.march_pool.data();
-    add_coefficients(world, m);
-    accumulate(world, worker, m);
+    finish_sums(m);
+    note_scattering_stretches(m);
     worker.statistics.marches += m.count > 0;
     worker.statistics.segments += m.count;
   }
@@ -292,16 +286,17 @@ void march(const CompiledScene& world, std::span<const MarchRequest> requests, W
 
 void march(const CompiledScene& world, const compile::Ray& ray, compile::RayKind kind, std::uint32_t seed,
            Worker& worker, March& out) {
-  const MarchRequest request{ray, kind, seed, &out};
+  const MarchRequest request{ray, kind, seed, &out, false};
   march(world, std::span(&request, 1), worker);
 }
 
 void evaluate_points(const CompiledScene& world, std::span<const MarchRequest> requests, Worker& worker) {
   for (const MarchRequest& request : requests) {
     March& m = *request.out;
-    m.count = static_cast<std::uint32_t>(m.t0.size());
-    m.dt.assign(m.count, 0.0);
+    m.count = 0;
+    m.dt.assign(m.t0.size(), 0.0);
     m.blocks.clear();
+    m.progress.blocks = 0;
     for (const auto& i : m.intervals) {
       const auto first = std::lower_bound(m.t0.begin(), m.t0.end(), i.t0),
                  last = std::lower_bound(first, m.t0.end(), i.t1);
@@ -314,11 +309,14 @@ void evaluate_points(const CompiledScene& world, std::span<const MarchRequest> r
       m.blocks.push_back(block);
     }
   }
-  evaluate(world, requests, worker);
+  evaluate(world, requests, all_of(requests, worker), worker);
   for (const MarchRequest& request : requests) {
-    request.out->pool = worker.march_pool.data();
-    add_coefficients(world, *request.out);
-    worker.statistics.segments += request.out->count;
+    March& m = *request.out;
+    const auto count = static_cast<std::uint32_t>(m.t0.size());
+    m.pool = worker.march_pool.data();
+    add_coefficients(world, m.pool, count, m);
+    m.count = count;
+    worker.statistics.segments += count;
   }
 }
 

@@ -52,13 +52,23 @@ struct MarchPlace {
   Vec3d transmittance;
 };
 
+// How far a march is while it is evaluated.
+struct MarchProgress {
+  std::uint32_t laid = 0;         // segments in all
+  std::uint32_t before_dark = 0;  // of them, before chance may end the march for the first time (dark.h)
+  std::uint32_t round_end = 0;    // up to which they are evaluated now
+  std::uint32_t blocks = 0;       // evaluated: the first ones
+  std::array<std::size_t, 3> crossings{};  // that the sums went over, by channel
+  Vec3d emitted;                           // so far
+};
+
 // Segments of one ray, structure of arrays; a colour quantity has one row when no medium of the scene is
 // chromatic. Edges increase, transmittance never rises.
 struct March {
   compile::Ray ray;
   int channels = 1, extinction_channels = 1;
-  std::uint32_t count = 0;
-  std::vector<double> t0, dt;                                    // [m]
+  std::uint32_t count = 0;     // of segments; a march that ended in the dark has fewer than were laid
+  std::vector<double> t0, dt;  // [m]
   std::array<std::vector<float>, 3> sigma_s, sigma_t, emission;  // [1/m], [1/m], [W/m³/sr]
   std::array<std::vector<double>, 3>
       transmittance;                             // at the start of each segment; [count]: at the ray's end
@@ -71,6 +81,7 @@ struct March {
   std::vector<Stretch> stretches;                  // of a march
   std::vector<compile::VolumeInterval> intervals;  // of a flight
   std::vector<MarchCrossing> crossings;            // in order of t; given by who asks for the march
+  MarchProgress progress;
 
   bool scatters() const { return !scattering_stretches.empty(); }
   Rgb end_transmittance() const { return rgb(transmittance, extinction_channels, count); }
@@ -126,6 +137,7 @@ struct MarchRequest {
   compile::RayKind kind{};
   std::uint32_t seed = 0;  // of its jitter
   March* out = nullptr;
+  bool may_end_dark = false;  // by chance, where little passes (dark.h)
 };
 
 // A block of a request, sorted by medium: its place among the lanes of a batch.

@@ -29,6 +29,8 @@ struct PathSettings {
   std::vector<ScatteringOrder> orders;
   bool sunward = false;  // rays towards distant lights are sent
   bool jitters = false;  // some march is jittered: rays need seeds
+  // No march of a camera ray ends in the dark: its optical depth is asked for.
+  bool whole_camera_marches = false;
   int groups = 1;        // of samples with independent random numbers (film.h)
   // Rays after the last bounce are traced only when they could meet light that is not sampled directly, or
   // that competes with it by MIS.

@@ -12,6 +12,7 @@ PathSettings path_settings(const compile::CompiledScene& world, const RenderOpti
   // Light at every step, and flights, take their one sample a place.
   settings.light_samples = options.method == Method::decoupled ? world.scene.settings.light_samples : 1;
   settings.jitters = f.heterogeneous || options.method == Method::brute_force;
+  settings.whole_camera_marches = options.aovs.has(Aov::optical_depth);
   settings.sunward = options.sunward && options.method == Method::decoupled && !world.distant_lights.empty();
   settings.bounces = world.scene.settings.bounces;
   if (const auto& approximation = world.scene.settings.multiple_scattering.approximate) {

@@ -16,7 +16,9 @@ void request_propagation(const compile::CompiledScene& world, const PathSettings
   const PathState& s = path.state;
   if (settings.method != Method::tracking) {
     const std::uint32_t seed = settings.jitters ? path.sampler->bits(id(Decision::jitter, s), 0) : 0;
-    worker.march_requests.push_back({s.ray, kind, seed, &path.march()});
+    worker.march_requests.push_back(
+        {s.ray, kind, seed, &path.march(),
+         settings.method == Method::decoupled && (s.depth > 0 || !settings.whole_camera_marches)});
     return;
   }
   // The light is chosen first, so that the flight knows a point to be aimed at.

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/numerics.h"
 #include "compile/grid_walk.h"
 #include "compile/kind_walk.h"
+#include "render/dark.h"
 #include "render/worker.h"
 
 namespace tyndall::render {
@@ -111,6 +113,14 @@ void find_stretches(const CompiledScene& world, const compile::Ray& ray, compile
   }
   const auto earlier = [](const Stretch& a, const Stretch& b) { return a.t0 < b.t0; };
   if (!std::is_sorted(out.begin(), out.end(), earlier)) std::stable_sort(out.begin(), out.end(), earlier);
+}
+
+std::uint32_t segments_before_dark(const CompiledScene& world, std::span<const Stretch> stretches) {
+  std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  for (const Stretch& s : stretches)
+    if (s.step < infinity)
+      least = std::min(least, segments_before_dark(world.volumes[s.volume].majorant, s.step));
+  return least;
 }
 
 void whole_stays(const CompiledScene& world, const compile::Ray& ray, compile::RayKind kind, Worker& worker,

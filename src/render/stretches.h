@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "compile/compiled_scene.h"
@@ -26,6 +27,10 @@ struct Stretch {
 // (certified.h).
 void find_stretches(const compile::CompiledScene& world, const compile::Ray& ray, compile::RayKind kind,
                     Worker& worker, std::vector<Stretch>& out);
+
+// Of a ray with these stretches, how many segments are evaluated before chance may end it in the dark
+// (dark.h).
+std::uint32_t segments_before_dark(const compile::CompiledScene& world, std::span<const Stretch> stretches);
 
 // The ray's stays as they are, each one segment.
 void whole_stays(const compile::CompiledScene& world, const compile::Ray& ray, compile::RayKind kind,

@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "base/numerics.h"
 #include "render/crossings.h"
+#include "render/dark.h"
 #include "render/estimators.h"
 #include "render/medium_lanes.h"
 #include "render/worker.h"
@@ -22,12 +23,6 @@ std::uint32_t segments_for(double length, double step, Worker& worker) {
   return max_segments;
 }
 
-// A march's first segments are evaluated at once; the others after roulette, when those were darker than
-// this.
-constexpr std::uint32_t first_segments = 32;
-constexpr double dark_depth = 4, least_survival = 0.05;
-constexpr std::uint64_t roulette_seed = 0xda7cull << 32;
-
 // Each march of one ray has its own jitter; the first has the ray's.
 std::uint32_t march_seed(std::uint32_t seed, std::uint32_t march) {
   return march == 0 ? seed : static_cast<std::uint32_t>(hash_bits(seed, march) >> 32);
@@ -39,9 +34,11 @@ std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& worl
                                               std::span<const ScatteringOrder> orders, Worker& worker) {
   CHECK(orders.empty() || !by_ratio(method));
   closed_.assign(rays_.size(), Vec3d{});
+  boost_.assign(rays_.size(), 1.0);
+  before_dark_.resize(rays_.size());
+  segments_.resize(rays_.size());
   estimates_.assign(rays_.size(), {0, 0});
   depth_.clear();
-  stays_.clear();
   rest_.clear();
   ratio_.clear(rays_.size());
   for (std::uint32_t r = 0; r < rays_.size(); ++r) {
@@ -54,9 +51,8 @@ std::span<const ShadowRay> ShadowBatch::trace(const compile::CompiledScene& worl
     const bool brings = !is_black(rays_[r].contribution) || (visible > 0 && rays_[r].has_higher());
     if (world.features.volumes && brings) collect_stays(world, r, method, worker);
   }
-  march_stays(world, worker);
-  if (!rest_.empty()) {
-    play_roulette();
+  for (std::uint32_t round = 0; !rest_.empty(); ++round) {
+    take_stays(round);
     march_stays(world, worker);
   }
   ratio_.run(world, method, rays_, worker);
@@ -104,41 +100,53 @@ void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32
     const Estimates& e = estimates_[ray];
     std::uint32_t n = segments_for(length, s.step, worker);
     if (method == Transmittance::jackknife) n = (n + 1) / 2;  // of two marches: as many in all
-    // Higher orders may see much of what is dark to the first.
-    const std::uint32_t at_once =
-        rays_[ray].has_higher() ? n : std::min(n, first_segments - std::min(laid, first_segments));
     const double dt = length / n;
-    for (std::uint32_t march = e.first; march < e.first + e.count; ++march) {
-      if (at_once > 0) stays_.push_back({volume.medium, s.volume, ray, march, laid, at_once, s.t0, dt});
-      if (at_once < n)
-        rest_.push_back(
-            {volume.medium, s.volume, ray, march, laid + at_once, n - at_once, s.t0 + at_once * dt, dt});
-    }
+    for (std::uint32_t march = e.first; march < e.first + e.count; ++march)
+      rest_.push_back({volume.medium, s.volume, ray, march, laid, n, s.t0, dt});
     laid += n;
   }
+  // Higher orders may see much of what is dark to the first.
+  before_dark_[ray] = rays_[ray].has_higher() ? laid : segments_before_dark(world, stretches_);
+  segments_[ray] = laid;
 }
 
-// Rays whose beginning is opaque end by chance; the others bring as much more. Leaves the rest of their
-// stays. Whatever an estimator makes of the depths, the mean is the same: the chance hangs on the beginning
-// alone.
-void ShadowBatch::play_roulette() {
+// The next part of all stays, twice as long in each round. Rays whose beginning is opaque end by chance; the
+// others bring as much more. Whatever an estimator makes of the depths, the mean is the same: the chance
+// hangs on the beginning alone.
+void ShadowBatch::take_stays(std::uint32_t round) {
   stays_.clear();
-  std::uint32_t at = static_cast<std::uint32_t>(rays_.size());
+  std::size_t kept = 0;
+  std::uint32_t at = static_cast<std::uint32_t>(rays_.size()), end = 0;
   bool goes_on = false;
   for (const Stay& stay : rest_) {  // ray after ray
     if (stay.ray != at) {
       at = stay.ray;
-      ShadowRay& ray = rays_[at];
-      const Estimates& e = estimates_[at];
-      double depth = infinity;
-      for (std::uint32_t march = e.first; march < e.first + e.count; ++march)
-        for (std::size_t c = 0; c < 3; ++c) depth = std::min(depth, closed_[at][c] + depth_[march][c]);
-      const double survival = std::clamp(std::exp(dark_depth - depth), least_survival, 1.0);
-      goes_on = unit_float(static_cast<std::uint32_t>(hash_bits(ray.seed, roulette_seed) >> 32)) < survival;
-      ray.contribution *= goes_on ? static_cast<float>(1 / survival) : 0.0f;
+      end = segments_until(before_dark_[at], round, segments_[at]);
+      goes_on = round == 0 || survives(at, round);
     }
-    if (goes_on) stays_.push_back(stay);
+    if (!goes_on) continue;
+    const std::uint32_t count = std::min(stay.count, end - std::min(stay.first, end));
+    Stay part = stay;
+    part.count = count;
+    if (count > 0) stays_.push_back(part);
+    part.first += count;
+    part.t0 += count * stay.dt;
+    part.count = stay.count - count;
+    if (part.count > 0) rest_[kept++] = part;
   }
+  rest_.resize(kept);
+}
+
+bool ShadowBatch::survives(std::uint32_t ray, std::uint32_t round) {
+  const Estimates& e = estimates_[ray];
+  double depth = infinity;
+  for (std::uint32_t march = e.first; march < e.first + e.count; ++march)
+    for (std::size_t c = 0; c < 3; ++c) depth = std::min(depth, closed_[ray][c] + depth_[march][c]);
+  const double survival = survival_in_the_dark(std::exp(-depth) * boost_[ray]);
+  const bool survives = survives_in_the_dark(rays_[ray].seed, round, survival);
+  boost_[ray] /= survival;
+  rays_[ray].contribution *= survives ? static_cast<float>(1 / survival) : 0.0f;
+  return survives;
 }
 
 // How many marches of its own a ray gets.

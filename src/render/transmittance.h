@@ -74,7 +74,9 @@ class ShadowBatch {
   void lay_estimates(std::uint32_t ray, Transmittance method);
   void collect_stays(const compile::CompiledScene& world, std::uint32_t ray, Transmittance method,
                      Worker& worker);
-  void play_roulette();
+  void take_stays(std::uint32_t round);
+  // Whether a ray is marched further after so many rounds.
+  bool survives(std::uint32_t ray, std::uint32_t round);
   void march_stays(const compile::CompiledScene& world, Worker& worker);
   // Through `extinction` times the extinction.
   double transmittance(std::uint32_t ray, std::size_t channel, Transmittance method, double extinction);
@@ -86,10 +88,13 @@ class ShadowBatch {
   std::vector<ShadowRay> rays_;
   std::vector<Rgb> higher_;
   std::vector<Estimates> estimates_;  // per ray
-  std::vector<Vec3d> closed_;         // optical depth known in closed form, per ray
-  std::vector<Vec3d> depth_;          // estimated optical depth, per march
+  std::vector<double> boost_;         // by roulette, per ray
+  // Segments of each march, per ray: before chance may end it, and in all.
+  std::vector<std::uint32_t> before_dark_, segments_;
+  std::vector<Vec3d> closed_;  // optical depth known in closed form, per ray
+  std::vector<Vec3d> depth_;   // estimated optical depth, per march
   std::vector<Stretch> stretches_;
-  std::vector<Stay> stays_, rest_;  // to be marched now, and after roulette
+  std::vector<Stay> stays_, rest_;  // to be marched now, and later
   RatioTracking ratio_;
   std::vector<float> values_;
   std::vector<double> one_channel_;

@@ -74,8 +74,10 @@ struct Worker {
   std::vector<AovSample> tile_aovs;
   std::vector<std::unique_ptr<PathSlot>> slots;  // of paths on their way
   std::vector<MarchRequest> march_requests;
+  std::vector<std::uint32_t> marches_going;  // of one call's requests, those that have segments left
   std::vector<MarchBatchEntry> march_batch;
   std::vector<float> march_pool;  // outputs of the media's programs, of the rays that are marched together
+  std::size_t march_floats = 0;   // of march_pool, in use
   LightChoice surface_lights;
   PhaseMixture phase;
   SunwardDirections sunward;
