@@ -60,6 +60,20 @@ std::vector<float> extinction(const CompiledScene& world, const std::vector<Vec3
   return rows[0];
 }
 
+// Artists shape densities by powers: 0 stays 0.
+TEST(MajorantGrids, APowerOfNothingIsProvedEmpty) {
+  const Built b = built([](const Point& p) {
+    vm::Builder& builder = *p.x.builder;
+    const Expression ball = max(0.5f - length(p), 0);
+    return Expression{&builder, builder.emit(vm::Op::pow, {ball.node, builder.constant(1.5f)}, {})};
+  });
+  BoundsScratch scratch;
+  EXPECT_EQ(b.grid().at({0.9, 0.9, 0.9}, scratch).kind, CellKind::empty);
+  const CellBounds middle = b.grid().at({0, 0, 0}, scratch);
+  EXPECT_GT(middle.minorant, 0.2f);
+  EXPECT_NEAR(middle.majorant, std::pow(0.5f, 1.5f), 1e-3f);
+}
+
 TEST(MajorantGrids, HoldAtEveryPoint) {
   const Built b = built(cloud);
   BoundsScratch scratch;

@@ -121,8 +121,8 @@ template <class V>
 TYNDALL_VM_INLINE Bound<V> sum_of(Bound<V> a, Bound<V> b) {
   return from_to(a.lo + b.lo, a.hi + b.hi, either(a.nan, b.nan));
 }
-// The least and the largest of four; NaNs, of 0 * infinity and infinity / infinity, count as 0, which with
-// the other corners is what they stand for.
+// The least and the largest of four, or of two; NaNs, of 0 * infinity and infinity / infinity, count as 0,
+// which with the other corners is what they stand for.
 template <class V>
 TYNDALL_VM_INLINE Bound<V> around(V p, V q, V r, V s, MaskOf<V> nan) {
   if (any(nan)) {
@@ -132,7 +132,17 @@ TYNDALL_VM_INLINE Bound<V> around(V p, V q, V r, V s, MaskOf<V> nan) {
   return from_to(lesser(lesser(p, q), lesser(r, s)), greater(greater(p, q), greater(r, s)), nan);
 }
 template <class V>
+TYNDALL_VM_INLINE Bound<V> around(V p, V q, MaskOf<V> nan) {
+  if (any(nan)) {
+    const auto clean = [](V v) HWY_ATTR { return select(v == v, v, V(0.0f)); };
+    p = clean(p), q = clean(q);
+  }
+  return from_to(lesser(p, q), greater(p, q), nan);
+}
+template <class V>
 TYNDALL_VM_INLINE Bound<V> product_of(Bound<V> a, Bound<V> b) {
+  // Mostly by a constant.
+  if (all(b.lo == b.hi)) return around(a.lo * b.lo, a.hi * b.lo, either(a.nan, b.nan));
   return around(a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi, either(a.nan, b.nan));
 }
 
@@ -184,12 +194,15 @@ TYNDALL_VM_BOUND2(mod) {
 // a (1 - c) + b c is linear in each: its extremes are at ends. Widened by the rounding of a + (b - a) c.
 TYNDALL_VM_BOUND3(mix) {
   const V zero(0.0f), one(1.0f);
+  const bool between = all(both(c.lo >= zero, c.hi <= one));
   const auto lowest = [&](V w) HWY_ATTR {
     const V u = one - w;
+    if (between) return a.lo * u + b.lo * w;
     return select(u < zero, a.hi, a.lo) * u + select(w < zero, b.hi, b.lo) * w;
   };
   const auto highest = [&](V w) HWY_ATTR {
     const V u = one - w;
+    if (between) return a.hi * u + b.hi * w;
     return select(u < zero, a.lo, a.hi) * u + select(w < zero, b.lo, b.hi) * w;
   };
   const V size = (largest_size(a) + largest_size(b)) * (one + largest_size(c));
