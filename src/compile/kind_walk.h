@@ -1,14 +1,19 @@
 // What is proven of a medium along a ray, without numbers: empty, uniform or varying. For skipping, which
 // asks for nothing else and asks it of every ray.
 //
-//   compile::KindWalk walk(grid, volume.medium_from_render_at(ray.time), ray, stay.t0, stay.t1, step,
-//   worker.bounds); compile::KindSegment s; while (walk.next(s)) …  // s.t0 of the first is stay.t0; each
-//   begins where the last one ended
+//   for (const compile::KindSegment& s : worker.kinds.along(grid, medium_from_render, ray, t0, t1, step,
+//                                                           worker.bounds)) …
+//
+// Planes between cells are crossed side by side, in SIMD lanes: how many of the other axes' planes come
+// before one follows from its place alone, so no crossing waits for another (against Amanatides and Woo,
+// Eurographics 1987, who go from cell to cell).
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "compile/compiled_scene.h"
 #include "compile/majorant_grid.h"
@@ -20,32 +25,36 @@ struct KindSegment {
   CellKind kind = CellKind::varying;
 };
 
-// Neighbours of one kind are one segment, but for uniform ones with other values.
+// One axis of a grid for one ray, which meets its plane k, counted from where it starts, at first + k * apart
+// [m]. The plane that bounds the grid is never crossed: what lies outside by rounding counts with the
+// outermost cells.
+struct WalkAxis {
+  float first = 0, apart = 0, per_metre = 0;
+  std::int32_t planes = 0;  // that may be crossed
+  std::int32_t stride = 0;  // of the groups, from one side of a plane to the other
+};
+
 class KindWalk {
  public:
-  // Over [t0, t1) of the ray, in groups of cells no longer than `step` [m] where that is more than a cell;
-  // makes what cells it meets.
-  KindWalk(const MajorantGrid& grid, const Transform& medium_from_render, const Ray& ray, double t0,
-           double t1, double step, BoundsScratch& scratch);
-
-  // The next segment, or false at the end.
-  bool next(KindSegment& out);
+  // [t0, t1) of the ray, cut where the kind changes, in groups of cells no longer than `step` [m] where that
+  // is more than a cell; makes what cells it meets. Neighbours of one kind are one segment, but for uniform
+  // ones with other values; each begins where the last one ended. Holds until the next call.
+  std::span<const KindSegment> along(const MajorantGrid& grid, const Transform& medium_from_render,
+                                     const Ray& ray, double t0, double t1, double step,
+                                     BoundsScratch& scratch);
 
  private:
-  // The ray meets plane k of an axis, counted from where it starts, at first + k * apart.
-  struct Axis {
-    double first, apart, leave;  // leave: the next plane; infinite before the grid's end
-    double crossed;              // planes
-    std::int32_t left;           // groups from here to the grid's end
-    std::ptrdiff_t stride;
-  };
+  // Sets the axes for a ray from a place, in groups, over a length [m]. Gives the group at its start.
+  std::int32_t aim(const std::array<std::uint32_t, 3>& groups, const Vec3d& from, const Vec3d& speed,
+                   double length);
+  void sort_changes(std::size_t count);
 
-  const MajorantGrid& grid_;
-  BoundsScratch& scratch_;
-  std::array<Axis, 3> axes_{};
-  double t_, end_;
-  int level_ = 0;
-  std::size_t index_ = 0;  // of the group at t_
+  std::vector<KindSegment> segments_;
+  std::array<WalkAxis, 3> axes_;
+  // Where a group of another kind, or one whose kind says too little, is entered: [m] from the start, and the
+  // group.
+  std::vector<float> times_;
+  std::vector<std::int32_t> groups_;
 };
 
 }  // namespace tyndall::compile

@@ -102,6 +102,7 @@ class MajorantGrid {
     const Brick* known = made_[i].load(std::memory_order_acquire);
     return known ? *known : make(i, {x, y, z}, scratch);
   }
+  static constexpr std::uint8_t unknown = 0xff;  // the kind of a group that no one has asked for
   // Groups along each axis, x fastest in their order.
   std::array<std::uint32_t, 3> groups(int level) const {
     const std::uint32_t a_brick = brick_side >> level;
@@ -114,6 +115,9 @@ class MajorantGrid {
       const std::uint8_t known = known_[group].load(std::memory_order_relaxed);
       return known != unknown ? static_cast<CellKind>(known) : grid_->make_kind(level_, group, scratch);
     }
+
+    // A byte a group: its kind, or `unknown`.
+    const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(known_); }
 
    private:
     friend class MajorantGrid;
@@ -175,7 +179,6 @@ class MajorantGrid {
   std::vector<std::uint8_t> coefficients_;  // outputs that are not negative: extinction, scattering, emission
   mutable std::vector<std::atomic<Brick*>> made_;
   // By level and group; functions of the place, so whoever writes one writes the same.
-  static constexpr std::uint8_t unknown = 0xff;
   mutable std::array<std::vector<std::atomic<std::uint8_t>>, levels> kinds_;
 };
 

@@ -23,10 +23,10 @@ using compile::VolumeInterval;
 constexpr double least_steps = 3;
 
 // Leaves out what is empty, but for gaps too short to save a segment.
-void skip_empty(compile::KindWalk& walk, const VolumeInterval& stay, double step, std::vector<Stretch>& out) {
+void skip_empty(std::span<const compile::KindSegment> kinds, const VolumeInterval& stay, double step,
+                std::vector<Stretch>& out) {
   const std::size_t first = out.size();
-  compile::KindSegment s;
-  while (walk.next(s)) {
+  for (const compile::KindSegment& s : kinds) {
     if (s.kind == CellKind::empty) continue;
     const bool uniform = s.kind == CellKind::uniform && s.t1 - s.t0 > 2 * step;
     if (uniform) {
@@ -98,9 +98,9 @@ void find_stretches(const CompiledScene& world, const compile::Ray& ray, compile
       continue;
     }
     if (!automatic) {
-      compile::KindWalk walk(grid, medium_from_render, ray, stay.t0, stay.t1, volume.step.metres,
-                             worker.bounds);
-      skip_empty(walk, stay, volume.step.metres, out);
+      const auto kinds = worker.kinds.along(grid, medium_from_render, ray, stay.t0, stay.t1,
+                                            volume.step.metres, worker.bounds);
+      skip_empty(kinds, stay, volume.step.metres, out);
       continue;
     }
     compile::GridWalk walk(grid, medium_from_render, ray, stay.t0, stay.t1, worker.bounds);

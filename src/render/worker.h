@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "compile/kind_walk.h"
 #include "compile/majorant_grid.h"
 #include "render/camera.h"
 #include "render/certified.h"
@@ -88,6 +89,7 @@ struct Worker {
   Product product;
   std::vector<FlightRequest> flight_requests;
   compile::BoundsScratch bounds;
+  compile::KindWalk kinds;
   std::vector<double> edges, reach;  // of the march at work
   std::vector<compile::VolumeInterval> intervals;
   std::vector<std::uint32_t> active;  // stretches

@@ -2,6 +2,7 @@
 // memory.
 #include "compile/majorant_grid.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -11,6 +12,7 @@
 #include "compile/compiled_scene.h"
 #include "compile/grid_walk.h"
 #include "compile/kind_walk.h"
+#include "compile/volume_grids.h"
 #include "scene/motion.h"
 #include "support/scene_builder.h"
 #include "support/scene_text.h"
@@ -158,13 +160,13 @@ TEST(MajorantGrids, WalksOverKindsSkipOnlyWhatIsEmpty) {
       awry);
   const CompiledVolume& volume = b.world.volumes[0];
   BoundsScratch scratch;
+  KindWalk kinds;
   std::array<double, 3> length{};
   for (const double step : {1e-6, 0.05, 0.3, 100.0})
     for_rays(b, [&](const Ray& ray, const VolumeInterval& stay) {
-      KindWalk walk(b.grid(), volume.medium_from_render, ray, stay.t0, stay.t1, step, scratch);
-      KindSegment s;
       double t = stay.t0;
-      while (walk.next(s)) {
+      for (const KindSegment& s :
+           kinds.along(b.grid(), volume.medium_from_render, ray, stay.t0, stay.t1, step, scratch)) {
         ASSERT_EQ(s.t0, t);
         ASSERT_LT(s.t0, s.t1);
         t = s.t1;
@@ -180,6 +182,78 @@ TEST(MajorantGrids, WalksOverKindsSkipOnlyWhatIsEmpty) {
       ASSERT_EQ(t, stay.t1);
     });
   for (const double kind : length) EXPECT_GT(kind, 20);
+}
+
+// The kinds along a ray in the medium's space, neighbours of one kind joined, without what is shorter than
+// rounding.
+std::vector<KindSegment> joined(const std::vector<KindSegment>& all, double rounding) {
+  std::vector<KindSegment> out;
+  for (const KindSegment& s : all) {
+    if (s.t1 - s.t0 <= rounding) continue;
+    if (!out.empty() && out.back().kind == s.kind)
+      out.back().t1 = s.t1;
+    else
+      out.push_back(s);
+  }
+  return out;
+}
+void expect_kinds_of_grid_walk(const MajorantGrid& grid, const Ray& ray, double t1, const std::string& what) {
+  BoundsScratch scratch;
+  GridWalk walk(grid, Transform(), ray, 0, t1, scratch);
+  std::vector<KindSegment> one_by_one;
+  for (MajorantSegment s; walk.next(s);) one_by_one.push_back({s.t0, s.t1, s.bounds.kind});
+  KindWalk kinds;
+  const auto found = kinds.along(grid, Transform(), ray, 0, t1, 1e-6, scratch);
+  const double rounding = 1e-6 * t1;
+  const auto a = joined(one_by_one, rounding), b = joined({found.begin(), found.end()}, rounding);
+  ASSERT_EQ(a.size(), b.size()) << what;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].kind, b[i].kind) << what << ", segment " << i;
+    EXPECT_NEAR(a[i].t0, b[i].t0, 2 * rounding) << what << ", segment " << i;
+    EXPECT_NEAR(a[i].t1, b[i].t1, 2 * rounding) << what << ", segment " << i;
+  }
+}
+
+// Rays through corners and edges of cells cross several planes in one place.
+TEST(MajorantGrids, WalksOverKindsGoThroughCornersAsCellByCell) {
+  const Built b =
+      built([](const Point& p) { return max(0.6f - length(p), 0) + less(p.x + p.y, -0.7f) * 3.f; });
+  const MajorantGrid grid(b.world.scene.media[0], {{Vec3d(-1), Vec3d(1)}, {}, {0, 0}, 1u << 15});
+  const double cell = grid.cell_size().x;
+  for (int dx = -2; dx <= 2; ++dx)
+    for (int dy = -2; dy <= 2; ++dy)
+      for (int dz = -2; dz <= 2; ++dz) {
+        if (dx == 0 && dy == 0 && dz == 0) continue;
+        for (const double off : {0.0, 0.5, 1.0 / 3}) {
+          const Vec3d d = normalize(Vec3d(dx, dy, dz));
+          const Vec3d through = Vec3d(cell * (2 + off), cell * (1 + off), cell * off);
+          const Ray ray{through - d * 0.9, d, infinity};
+          expect_kinds_of_grid_walk(grid, ray, 1.8, fmt::format("{} {} {} + {}", dx, dy, dz, off));
+        }
+      }
+}
+
+// A corridor of thousands of cells, whose far end floats would miss.
+TEST(MajorantGrids, WalksOverKindsHoldAlongAThousandCells) {
+  const Built b = built([](const Point& p) { return less(fract(p.x * 0.5f), 0.25f) * 3.f; }, {},
+                        scene::Box{{0, -1, -1}, {1000, 1, 1}});
+  const MajorantGrid grid(b.world.scene.media[0], {{{0, -1, -1}, {1000, 1, 1}}, {}, {0, 0}, max_grid_cells});
+  EXPECT_GT(grid.groups(0)[0], 2000u);
+  BoundsScratch scratch;
+  KindWalk kinds;
+  std::size_t empty = 0;
+  for (const Vec3d& d : {Vec3d(1, 0, 0), Vec3d(1, 0.0017, -0.0009), Vec3d(-1, 0.0013, 0.0019)}) {
+    const Ray ray{{d.x > 0 ? 0.0 : 1000.0, -0.95, -0.05}, normalize(d), infinity};
+    for (const KindSegment& s : kinds.along(grid, Transform(), ray, 0, 999, 1e-6, scratch)) {
+      if (s.kind != CellKind::empty) continue;
+      ++empty;
+      std::vector<Vec3d> points;
+      for (const double part : {0.0, 0.5, 1.0})
+        points.push_back(ray.origin + ray.direction * (s.t0 + part * (s.t1 - s.t0)));
+      for (const float sigma : extinction(b.world, points)) ASSERT_EQ(sigma, 0) << s.t0 << " to " << s.t1;
+    }
+  }
+  EXPECT_GT(empty, 1000u);
 }
 
 TEST(MajorantGrids, DoNotDependOnWhoComesFirst) {
