@@ -13,7 +13,9 @@
 #include "render/emission_light.h"
 #include "render/light_met.h"
 #include "render/path_light.h"
+#include "render/path_roulette.h"
 #include "render/path_state.h"
+#include "render/path_sunward.h"
 #include "render/propagation.h"
 #include "render/worker.h"
 
@@ -133,7 +135,8 @@ class PathTracer {
 
     if (s.is_sunward()) {
       if (!aovs_.empty()) aovs_[path_->sample].cost += 1 + m.count;
-      return light_sunward(s, m);
+      light_sunward(context_, *path_, s);
+      return false;
     }
     gather_emission(s, m);
     meet_surfaces(s, m);
@@ -229,15 +232,6 @@ class PathTracer {
     worker_.emission_rays.clear();
   }
 
-  // A ray that was sent towards distant lights ends with what they bring.
-  bool light_sunward(const PathState& s, const March& m) {
-    LightStrategies& strategies = path_->light();
-    strategies.set(world_, m, s.throughput, settings_.method, settings_.distance, {});
-    strategies.set_distant(1, true);
-    if (m.scatters()) light_volume(context_, *path_, s, strategies, false, 1);
-    return false;
-  }
-
   // Direct light in the volume and on a surface, and the choice of the next ray.
   bool scatter(PathState& s, const March& m, LightStrategies& strategies, bool continues) {
     const double volume_mass = std::max(0.0f, luminance(s.throughput * m.total_scattered())),
@@ -298,41 +292,14 @@ class PathTracer {
     const Vec3d x = s.ray.origin + s.ray.direction * at.t;
     const Vec3f w =
         optics::rotate_from(Vec3f(s.ray.direction), cosine_complement, static_cast<float>(2 * pi) * v[1]);
-    const float share_of_distant = share_with_sunward(s, strategies, x, w, pdf_phase, v[6]);
+    const SunwardShare sunward = share_with_sunward(context_, *path_, s, strategies, x, w, pdf_phase, v[6]);
+    if (sunward.sent) follow(*sunward.sent);
     s.throughput *= worker_.phase.eval(cosine_complement) * (1 / pdf_phase);
     s.origin = {PathOrigin::Kind::volume, x,           at.pdf * pdf_phase, volume_probability * pdf_phase,
                 s.share_of_distant,       &strategies, at.segment,         at.t};
-    s.share_of_distant = share_of_distant;
+    s.share_of_distant = sunward.left;
     s.ray = {x, normalize(Vec3d(w)), infinity, s.ray.time};
-    return next_depth(s);
-  }
-
-  // Sends a ray from x towards distant lights, by chance. Gives what is left of their light for the path
-  // itself, which goes on along w with this density; s is the path at x without its next direction.
-  float share_with_sunward(const PathState& s, const LightStrategies& strategies, const Vec3d& x,
-                           const Vec3f& w, float pdf, float u) {
-    if (!settings_.sunward || s.depth + 1 > static_cast<std::uint32_t>(settings_.bounces) ||
-        s.media_scatterings > settings_.real_scatterings)
-      return 1;
-    SunwardDirections& sunward = worker_.sunward;
-    sunward.set(world_, strategies.lights(), worker_.phase, s.ray.time);
-    const float chance = sunward.chance();
-    if (chance == 0) return 1;
-    if (u < chance) {
-      const SobolPoint v = point(Decision::sunward, s);
-      const Vec3f toward = sunward.sample(v[2], v[3], v[0], v[4], v[1]);
-      const float turn = optics::one_minus_cos(Vec3f(s.ray.direction), toward);
-      const float density = worker_.phase.pdf(turn) + chance * sunward.pdf(toward);
-      PathState ray = s;
-      ray.throughput *= worker_.phase.eval(turn) * (1 / density);
-      ray.ray = {x, normalize(Vec3d(toward)), infinity, s.ray.time};
-      ray.branch |= sunward_branch;
-      ray.share_of_distant = 1;
-      ray.origin.kind = PathOrigin::Kind::volume;
-      ++ray.depth;
-      follow(ray);
-    }
-    return pdf / (pdf + chance * sunward.pdf(w));
+    return next_depth(s, sampler());
   }
 
   bool continue_from_surface(PathState& s, const SurfacePoint& surface) {
@@ -354,22 +321,7 @@ class PathTracer {
       s.index_scale *= static_cast<float>(sqr(surface.eta));
     if (s.depth == 0) s.branch |= behind_branch;
     s.share_of_distant = 1;
-    return next_depth(s);
-  }
-
-  // Russian roulette on what the path still carries. A path that carries little keeps a tenth of a chance:
-  // survivors weigh at most ten times more than before, where carried / carried = 1 would hang the mean on
-  // one path in thousands.
-  bool next_depth(PathState& s) {
-    ++s.depth;
-    const Rgb size{std::abs(s.throughput.x), std::abs(s.throughput.y), std::abs(s.throughput.z)};
-    const float carried = max_component(size) * s.index_scale;
-    if (!(carried > 0)) return false;
-    if (s.depth < first_roulette) return true;
-    const float survival = std::clamp(carried, least_survival, 1.0f);
-    if (sampler().independent(id(Decision::roulette, s), 0) >= survival) return false;
-    s.throughput /= survival;
-    return true;
+    return next_depth(s, sampler());
   }
 
   void gather_emission(const PathState& s, const March& m) {
@@ -407,11 +359,6 @@ class PathTracer {
   float weight(const PathState& s, std::uint32_t light, const Vec3d& y, const Vec3d& normal) {
     return weight_of_met_light(world_, settings_.light_samples, s, light, y, normal, worker_);
   }
-
-  // Until this many scatterings no roulette. In the three first scenes 5 was 6-55 % more efficient than 1,
-  // 2-18 % than 2, 15-44 % than none (docs/decisions/0004-lights-and-ends.md).
-  static constexpr std::uint32_t first_roulette = 5;
-  static constexpr float least_survival = 0.1f;
 
   // How many paths advance together, at least while there are samples: their segments fill batches of
   // hundreds of lanes.

@@ -31,7 +31,7 @@ struct PathSettings {
   bool jitters = false;  // some march is jittered: rays need seeds
   // No march of a camera ray ends in the dark: its optical depth is asked for.
   bool whole_camera_marches = false;
-  int groups = 1;        // of samples with independent random numbers (film.h)
+  int groups = 1;  // of samples with independent random numbers (film.h)
   // Rays after the last bounce are traced only when they could meet light that is not sampled directly, or
   // that competes with it by MIS.
   bool gathers_after_last = false;
