@@ -13,9 +13,9 @@ namespace tyndall::render {
 inline constexpr double dark_depth = 4;
 
 // How many segments of length `step` [m] are evaluated before chance is asked, where nothing is denser than
-// `majorant` [1/m]: fewer are never dark.
+// `majorant` [1/m]: fewer are never dark, or too few to fill batches.
 inline std::uint32_t segments_before_dark(double majorant, double step) {
-  constexpr double least = 4, most = 4096;
+  constexpr double least = 16, most = 4096;
   return static_cast<std::uint32_t>(std::clamp(std::ceil(dark_depth / (majorant * step)), least, most));
 }
 // Of a ray's `count` segments, those up to the end of a round, with `first` in the first: each round takes

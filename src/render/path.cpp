@@ -362,7 +362,7 @@ class PathTracer {
 
   // How many paths advance together, at least while there are samples: their segments fill batches of
   // hundreds of lanes.
-  static constexpr std::size_t paths_together = 16;
+  static constexpr std::size_t paths_together = 128;
 
   const Sampler& sampler() const { return *path_->sampler; }
   std::uint64_t id(Decision d, const PathState& s) const { return decision(d, s.depth, s.branch); }
