@@ -76,7 +76,7 @@ class PathTracer {
 
   // New camera samples take the places of paths that have ended.
   void start_paths() {
-    while (active_ < paths_together && started_ < samples_.size()) {
+    while (active_ < paths_together() && started_ < samples_.size()) {
       const CameraSample& s = samples_[started_];
       PathSlot& path = new_slot();
       path.sampler = sampler_for(world_, settings_, s);
@@ -361,8 +361,8 @@ class PathTracer {
   }
 
   // How many paths advance together, at least while there are samples: their segments fill batches of
-  // hundreds of lanes.
-  static constexpr std::size_t paths_together = 128;
+  // hundreds of lanes. Where no medium varies there are few segments, and more paths would leave the cache.
+  std::size_t paths_together() const { return world_.features.heterogeneous ? 128 : 16; }
 
   const Sampler& sampler() const { return *path_->sampler; }
   std::uint64_t id(Decision d, const PathState& s) const { return decision(d, s.depth, s.branch); }
