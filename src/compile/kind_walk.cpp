@@ -39,15 +39,17 @@ HWY_INLINE HWY_ATTR Floats crossed_before(const WalkAxis& axis, Floats t, bool f
 }
 
 // Finds where a group is entered, of [0, length), whose kind is not that of the one before, or says too
-// little. Planes that lie in one place are crossed in the order z, y, x. The arrays have room for all planes
-// and one more.
-std::size_t find_changes(const std::array<WalkAxis, 3>& axes, std::int32_t start, float length,
-                         const std::uint8_t* kinds, float* times, std::int32_t* groups) {
+// little: in order for each axis, z, y and x one behind the other. Planes that lie in one place are crossed
+// in this order. The arrays have room for all planes and one more. Gives where each axis' changes end.
+std::array<std::size_t, 3> find_changes(const std::array<WalkAxis, 3>& axes, std::int32_t start, float length,
+                                        const MajorantGrid::Kinds& kinds, float* times,
+                                        std::int32_t* groups) {
   const Lanes d;
   const IntegerLanes di;
   constexpr auto uniform = static_cast<std::uint8_t>(CellKind::uniform);
   alignas(64) float t_lanes[widest_vector];
   alignas(64) std::int32_t group_lanes[widest_vector];
+  std::array<std::size_t, 3> ends;
   std::size_t found = 0;
   for (std::size_t a = 3; a-- > 0;) {
     const WalkAxis& axis = axes[a];
@@ -69,14 +71,17 @@ std::size_t find_changes(const std::array<WalkAxis, 3>& axes, std::int32_t start
       // a change.
       const std::size_t count = hn::CountTrue(d, there);
       for (std::size_t i = 0; i < count; ++i) {
-        const std::uint8_t kind = kinds[group_lanes[i]], before = kinds[group_lanes[i] - axis.stride];
+        const auto group_at = static_cast<std::size_t>(group_lanes[i]);
+        const std::uint8_t kind = kinds.known(group_at),
+                           before = kinds.known(group_at - static_cast<std::size_t>(axis.stride));
         times[found] = t_lanes[i];
         groups[found] = group_lanes[i];
         found += (kind != before) | (kind == uniform) | (kind == MajorantGrid::unknown);
       }
     }
+    ends[2 - a] = found;
   }
-  return found;
+  return ends;
 }
 
 }  // namespace tyndall::compile::HWY_NAMESPACE
@@ -95,8 +100,8 @@ namespace {
 
 HWY_EXPORT(find_changes);
 
-// Groups [at most] that a ray crosses in one go: places are floats, and off by no more than 1e-7 of the way,
-// which is less than what cells are larger than they seem (majorant_grid.cpp).
+// At most so many groups are crossed along an axis in one go: places are floats, and off by no more than 1e-7
+// of the way, which is less than what cells are larger than they seem (majorant_grid.cpp).
 constexpr double longest_piece = 256;
 
 }  // namespace
@@ -140,12 +145,17 @@ std::span<const KindSegment> KindWalk::along(const MajorantGrid& grid, const Tra
     const double from = t0 + (t1 - t0) * (piece / pieces),
                  to = piece + 1 < pieces ? t0 + (t1 - t0) * ((piece + 1) / pieces) : t1;
     const std::int32_t start = aim(grid.groups(level), origin + speed * from, speed, to - from);
-    const std::size_t changes = HWY_DYNAMIC_DISPATCH(find_changes)(
-        axes_, start, static_cast<float>(to - from), kinds.bytes(), times_.data(), groups_.data());
-    sort_changes(changes);
+    const std::array<std::size_t, 3> ends = HWY_DYNAMIC_DISPATCH(find_changes)(
+        axes_, start, static_cast<float>(to - from), kinds, times_.data(), groups_.data());
     enter(from, static_cast<std::size_t>(start));
-    for (std::size_t i = 0; i < changes; ++i)
+    std::array<std::size_t, 3> next = {0, ends[0], ends[1]};
+    for (std::size_t k = 0; k < ends[2]; ++k) {
+      std::size_t first = 3;  // of the axes, the one whose change comes first
+      for (std::size_t a = 0; a < 3; ++a)
+        if (next[a] < ends[a] && (first == 3 || times_[next[a]] < times_[next[first]])) first = a;
+      const std::size_t i = next[first]++;
       enter(std::min(from + double{times_[i]}, to), static_cast<std::size_t>(groups_[i]));
+    }
   }
   if (open.t0 < t1) segments_.push_back(open);
   return segments_;
@@ -177,18 +187,6 @@ std::int32_t KindWalk::aim(const std::array<std::uint32_t, 3>& groups, const Vec
   }
   if (times_.size() < room) times_.resize(room), groups_.resize(room);
   return start;
-}
-
-// Few, and in order for each axis; equal ones keep their order.
-void KindWalk::sort_changes(std::size_t count) {
-  for (std::size_t i = 1; i < count; ++i) {
-    const float t = times_[i];
-    const std::int32_t group = groups_[i];
-    std::size_t k = i;
-    for (; k > 0 && times_[k - 1] > t; --k) times_[k] = times_[k - 1], groups_[k] = groups_[k - 1];
-    times_[k] = t;
-    groups_[k] = group;
-  }
 }
 
 }  // namespace tyndall::compile

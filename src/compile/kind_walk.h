@@ -47,7 +47,6 @@ class KindWalk {
   // Sets the axes for a ray from a place, in groups, over a length [m]. Gives the group at its start.
   std::int32_t aim(const std::array<std::uint32_t, 3>& groups, const Vec3d& from, const Vec3d& speed,
                    double length);
-  void sort_changes(std::size_t count);
 
   std::vector<KindSegment> segments_;
   std::array<WalkAxis, 3> axes_;

@@ -116,8 +116,8 @@ class MajorantGrid {
       return known != unknown ? static_cast<CellKind>(known) : grid_->make_kind(level_, group, scratch);
     }
 
-    // A byte a group: its kind, or `unknown`.
-    const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(known_); }
+    // The kind, or `unknown`; makes nothing.
+    std::uint8_t known(std::size_t group) const { return known_[group].load(std::memory_order_relaxed); }
 
    private:
     friend class MajorantGrid;

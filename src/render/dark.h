@@ -10,6 +10,7 @@
 
 namespace tyndall::render {
 
+// The optical depth beyond which chance is asked.
 inline constexpr double dark_depth = 4;
 
 // How many segments of length `step` [m] are evaluated before chance is asked, where nothing is denser than
@@ -25,11 +26,11 @@ inline std::uint32_t segments_until(std::uint32_t first, std::uint32_t round, st
   return count <= end + first ? count : static_cast<std::uint32_t>(end);
 }
 
-// Above the optical depth 4 all go on; below, as many as keep what passes at e^-4, but one of twenty at
+// Where it is not dark all go on; beyond, as many as keep what passes at e^-dark_depth, but one of twenty at
 // least.
 inline double survival_in_the_dark(double transmittance) {
-  constexpr double dark = 0.018315638888734179, least_survival = 0.05;  // e^-dark_depth
-  return std::clamp(transmittance / dark, least_survival, 1.0);
+  constexpr double least_survival = 0.05;
+  return std::clamp(transmittance / std::exp(-dark_depth), least_survival, 1.0);
 }
 
 // `seed` names the ray, `round` tells one decision on it from the next.

@@ -286,7 +286,7 @@ void march(const CompiledScene& world, std::span<const MarchRequest> requests, W
 
 void march(const CompiledScene& world, const compile::Ray& ray, compile::RayKind kind, std::uint32_t seed,
            Worker& worker, March& out) {
-  const MarchRequest request{ray, kind, seed, &out, false};
+  const MarchRequest request{ray, kind, seed, &out};
   march(world, std::span(&request, 1), worker);
 }
 

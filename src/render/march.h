@@ -63,7 +63,7 @@ struct MarchProgress {
 };
 
 // Segments of one ray, structure of arrays; a colour quantity has one row when no medium of the scene is
-// chromatic. Edges increase, transmittance never rises.
+// chromatic. Edges increase; transmittance rises only where a march goes on in the dark.
 struct March {
   compile::Ray ray;
   int channels = 1, extinction_channels = 1;
