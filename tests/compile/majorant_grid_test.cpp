@@ -197,20 +197,20 @@ std::vector<KindSegment> joined(const std::vector<KindSegment>& all, double roun
   }
   return out;
 }
-void expect_kinds_of_grid_walk(const MajorantGrid& grid, const Ray& ray, double t1, const std::string& what) {
+void expect_kinds_of_grid_walk(const MajorantGrid& grid, const Ray& ray, double t1, double rounding,
+                               const std::string& what) {
   BoundsScratch scratch;
   GridWalk walk(grid, Transform(), ray, 0, t1, scratch);
   std::vector<KindSegment> one_by_one;
   for (MajorantSegment s; walk.next(s);) one_by_one.push_back({s.t0, s.t1, s.bounds.kind});
   KindWalk kinds;
   const auto found = kinds.along(grid, Transform(), ray, 0, t1, 1e-6, scratch);
-  const double rounding = 1e-6 * t1;
-  const auto a = joined(one_by_one, rounding), b = joined({found.begin(), found.end()}, rounding);
+  const auto a = joined(one_by_one, rounding / 2), b = joined({found.begin(), found.end()}, rounding / 2);
   ASSERT_EQ(a.size(), b.size()) << what;
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].kind, b[i].kind) << what << ", segment " << i;
-    EXPECT_NEAR(a[i].t0, b[i].t0, 2 * rounding) << what << ", segment " << i;
-    EXPECT_NEAR(a[i].t1, b[i].t1, 2 * rounding) << what << ", segment " << i;
+    EXPECT_NEAR(a[i].t0, b[i].t0, rounding) << what << ", segment " << i;
+    EXPECT_NEAR(a[i].t1, b[i].t1, rounding) << what << ", segment " << i;
   }
 }
 
@@ -228,7 +228,7 @@ TEST(MajorantGrids, WalksOverKindsGoThroughCornersAsCellByCell) {
           const Vec3d d = normalize(Vec3d(dx, dy, dz));
           const Vec3d through = Vec3d(cell * (2 + off), cell * (1 + off), cell * off);
           const Ray ray{through - d * 0.9, d, infinity};
-          expect_kinds_of_grid_walk(grid, ray, 1.8, fmt::format("{} {} {} + {}", dx, dy, dz, off));
+          expect_kinds_of_grid_walk(grid, ray, 1.8, 3.6e-6, fmt::format("{} {} {} + {}", dx, dy, dz, off));
         }
       }
 }
@@ -239,21 +239,12 @@ TEST(MajorantGrids, WalksOverKindsHoldAlongAThousandCells) {
                         scene::Box{{0, -1, -1}, {1000, 1, 1}});
   const MajorantGrid grid(b.world.scene.media[0], {{{0, -1, -1}, {1000, 1, 1}}, {}, {0, 0}, max_grid_cells});
   EXPECT_GT(grid.groups(0)[0], 2000u);
-  BoundsScratch scratch;
-  KindWalk kinds;
-  std::size_t empty = 0;
+  // Cells are bounded with 1e-4 of their size around them.
+  const double rounding = 0.5e-4 * grid.cell_size().x;
   for (const Vec3d& d : {Vec3d(1, 0, 0), Vec3d(1, 0.0017, -0.0009), Vec3d(-1, 0.0013, 0.0019)}) {
     const Ray ray{{d.x > 0 ? 0.0 : 1000.0, -0.95, -0.05}, normalize(d), infinity};
-    for (const KindSegment& s : kinds.along(grid, Transform(), ray, 0, 999, 1e-6, scratch)) {
-      if (s.kind != CellKind::empty) continue;
-      ++empty;
-      std::vector<Vec3d> points;
-      for (const double part : {0.0, 0.5, 1.0})
-        points.push_back(ray.origin + ray.direction * (s.t0 + part * (s.t1 - s.t0)));
-      for (const float sigma : extinction(b.world, points)) ASSERT_EQ(sigma, 0) << s.t0 << " to " << s.t1;
-    }
+    expect_kinds_of_grid_walk(grid, ray, 999, rounding, fmt::format("{} {}", d.x, d.y));
   }
-  EXPECT_GT(empty, 1000u);
 }
 
 TEST(MajorantGrids, DoNotDependOnWhoComesFirst) {
