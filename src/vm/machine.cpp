@@ -102,10 +102,9 @@ struct Runner {
       const bool guarded = guard < guards.size() && guards[guard].first < end;
       const std::uint32_t stop = guarded ? guards[guard].first : end;
       instructions += stop - begin;
-      for (; begin < stop; ++begin) {
-        const Step& step = prepared.steps()[begin];
-        step.run(step, first, lanes);
-      }
+      const Step* const steps = prepared.steps().data();
+      for (const Step *step = steps + begin, *last = steps + stop; step != last; ++step)
+        step->run(*step, first, lanes);
       if (!guarded) return;
       run_guarded(guard, first, lanes);
       begin = guards[guard].last;
@@ -159,7 +158,7 @@ void Machine::run_chunks(const Program& program, const BatchInputs& inputs, std:
                          std::span<float* const> outputs) {
   Prepared& prepared = memory_->prepared(program);
   prepared.set_uniform_inputs(program, inputs);
-  const std::size_t vector = simd_lanes();
+  const std::size_t vector = prepared.vector_lanes();
   for (std::size_t begin = 0; begin < lanes; begin += max_lanes) {
     const std::size_t used = std::min(max_lanes, lanes - begin),
                       issued = (used + vector - 1) / vector * vector;

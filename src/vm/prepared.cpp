@@ -16,7 +16,8 @@ float* Rows::operator[](std::size_t row) {
   return blocks_[row / rows_a_block].get() + row % rows_a_block * pitch;
 }
 
-Prepared::Prepared(const Program& program, Rows& rows) : functions_(step_functions()) {
+Prepared::Prepared(const Program& program, Rows& rows)
+    : functions_(step_functions()), vector_lanes_(simd_lanes()) {
   const std::size_t fixed = program.first_row();
   fixed_ = aligned_floats(fixed * widest_vector);
   for (std::size_t k = 0; k < fixed; ++k) operands_.push_back({fixed_.get() + k * widest_vector, false});
@@ -66,15 +67,15 @@ void Prepared::add_guards(const Program& program) {
 
 // Finds every place of the lane inputs, and of the outputs' rows from their last writer on.
 void Prepared::find_places(const Program& program) {
-  std::vector<std::vector<StepPlace>> places(operands_.size());
+  std::vector<RowPlaces> places(operands_.size());
   std::uint32_t guard = 0;
   for (std::uint32_t i = 0; i < program.lane_code.size(); ++i) {
     const Instruction& instruction = program.lane_code[i];
     for (; guard < program.guards.size() && program.guards[guard].first == i; ++guard)
-      places[program.guards[guard].condition].push_back({guard, StepPlace::guard});
+      places[program.guards[guard].condition].read.push_back(&guards_[guard].condition);
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(op_info(instruction.op).operands); ++k)
-      places[instruction.operands[k]].push_back({i, k});
-    places[instruction.destination].assign({{i, StepPlace::destination}});
+      places[instruction.operands[k]].read.push_back(&lane_steps_[i].operands[k]);
+    places[instruction.destination] = {{}, {&lane_steps_[i].destination}};
   }
   for (std::size_t k = 0; k < program.inputs.size(); ++k)
     if (inputs_[k].row) inputs_[k].places = places[program.first_input() + k];
@@ -106,27 +107,8 @@ void Prepared::set_uniform_inputs(const Program& program, const BatchInputs& inp
     uniforms_valid_ = false;
   }
   if (uniforms_valid_) return;
-  for (const Step& step : uniform_steps_) step.run(step, 0, simd_lanes());
+  for (const Step& step : uniform_steps_) step.run(step, 0, vector_lanes_);
   uniforms_valid_ = true;
-}
-
-void Prepared::set(const std::vector<StepPlace>& places, const float* operand, float* destination) {
-  for (const StepPlace& place : places)
-    if (place.operand == StepPlace::destination)
-      lane_steps_[place.step].destination = destination;
-    else if (place.operand == StepPlace::guard)
-      guards_[place.step].condition = operand;
-    else
-      lane_steps_[place.step].operands[place.operand] = operand;
-}
-
-void Prepared::read_input(std::size_t input, const float* from) {
-  set(inputs_[input].places, from ? from : inputs_[input].row, nullptr);
-}
-
-void Prepared::write_output(std::size_t output, float* to) {
-  float* const place = to ? to : const_cast<float*>(outputs_[output].row);
-  set(outputs_[output].places, place, place);
 }
 
 }  // namespace tyndall::vm

@@ -33,10 +33,18 @@ class Rows {
   std::vector<AlignedFloats> blocks_;
 };
 
-// Where a pointer of a step stands that depends on the batch.
-struct StepPlace {
-  static constexpr std::uint32_t destination = 4, guard = 5;
-  std::uint32_t step, operand;  // `destination`, or an index of operands; or `guard`, and `step` is a guard's
+// The pointers of steps and guards that follow a row of the caller's.
+struct RowPlaces {
+  std::vector<const float**> read;
+  std::vector<float**> written;
+  const float* current = nullptr;  // where they point now
+
+  void point_at(float* row) {
+    if (row == current) return;
+    current = row;
+    for (const float** place : read) *place = row;
+    for (float** place : written) *place = row;
+  }
 };
 
 class Prepared {
@@ -47,20 +55,26 @@ class Prepared {
   void set_uniform_inputs(const Program& program, const BatchInputs& inputs);
 
   // The lane input (by its index in program.inputs) is read at `from`; null: at its row, see input_row().
-  void read_input(std::size_t input, const float* from);
+  void read_input(std::size_t input, const float* from) {
+    LaneInput& i = inputs_[input];
+    i.places.point_at(from ? const_cast<float*>(from) : i.row);  // inputs have no places that are written
+  }
   float* input_row(std::size_t input) const { return inputs_[input].row; }
 
   // An output (by its index in program.outputs).
   struct Output {
     const float* uniform = nullptr;  // one value for all lanes
-    const float* row = nullptr;      // where the code leaves it
+    float* row = nullptr;            // where the code leaves it
     std::int32_t input = -1;         // or: the input that it is
     std::int32_t same_as = -1;       // or: the earlier output that it is
-    std::vector<StepPlace> places;   // of the row, from its last writer on
+    RowPlaces places;                // of the row, from its last writer on
   };
   const std::vector<Output>& outputs() const { return outputs_; }
   // The output, which must have places, is written to `to` from now on; null: to its row.
-  void write_output(std::size_t output, float* to);
+  void write_output(std::size_t output, float* to) {
+    Output& o = outputs_[output];
+    o.places.point_at(to ? to : o.row);
+  }
 
   const std::vector<Step>& steps() const { return lane_steps_; }
 
@@ -77,18 +91,20 @@ class Prepared {
   const std::vector<Guard>& guards() const { return guards_; }
   std::uint64_t lanes_run = 0;  // in all
   std::span<const StepFunction> functions() const { return functions_; }
+  // Of the SIMD class that it was prepared for.
+  std::size_t vector_lanes() const { return vector_lanes_; }
 
  private:
   struct LaneInput {
     float* row = nullptr;  // null for a uniform one
-    std::vector<StepPlace> places;
+    RowPlaces places;
   };
   void add_steps(const std::vector<Instruction>& code, std::vector<Step>& steps) const;
   void add_guards(const Program& program);
   void find_places(const Program& program);
-  void set(const std::vector<StepPlace>& places, const float* operand, float* destination);
 
   std::span<const StepFunction> functions_;
+  std::size_t vector_lanes_;
   AlignedFloats fixed_;  // one vector for each operand that is the same for all lanes
   struct Place {
     float* data;

@@ -28,12 +28,40 @@ constexpr bool is_chain(Op op) {
   return (op >= Op::pow && op <= Op::atan2) || (op >= Op::random1 && op <= Op::random4);
 }
 
-// Four vectors at a time: the short kernels are bound by what surrounds them.
+// Operand k of the vector at lane i.
+template <std::size_t k>
+TYNDALL_VM_INLINE Floats operand_at(const Step& step, std::size_t i) {
+  return Floats(hn::LoadU(FloatTag(), step.operands[k] + (step.lane_mask[k] & i)));
+}
+
+// A batch of one vector waits for what surrounds the kernel, so the way to it is short.
 template <Op op, std::size_t... k>
 TYNDALL_VM_INLINE void run_over_lanes(const Step& step, std::size_t first, std::size_t lanes,
                                       std::index_sequence<k...>) {
   const FloatTag d;
   const std::size_t width = hn::Lanes(d);
+  const Options options{step.octaves, step.seed, step.planes};
+  std::size_t i = first;
+  const std::size_t end = first + lanes;
+  if constexpr (is_chain(op)) {
+    for (; i + width < end; i += 2 * width) {
+      const FloatsPair result =
+          Kernel<op>::run(options, FloatsPair(operand_at<k>(step, i), operand_at<k>(step, i + width))...);
+      hn::StoreU(result.a.raw, d, step.destination + i);
+      hn::StoreU(result.b.raw, d, step.destination + i + width);
+    }
+  }
+  for (; i < end; i += width)
+    hn::StoreU(Kernel<op>::run(options, operand_at<k>(step, i)...).raw, d, step.destination + i);
+}
+
+// Four vectors at a time: the short kernels are bound by what surrounds them.
+template <Op op, std::size_t... k>
+TYNDALL_VM_INLINE void run_short_over_lanes(const Step& step, std::size_t first, std::size_t lanes,
+                                            std::index_sequence<k...> operands) {
+  const FloatTag d;
+  const std::size_t width = hn::Lanes(d);
+  if (lanes < 4 * width) return run_over_lanes<op>(step, first, lanes, operands);
   const Options options{step.octaves, step.seed, step.planes};
   // Where each operand is read, and how far on the next vector is: 0 when all lanes read the same one.
   const float* place[] = {step.operands[k] + (step.lane_mask[k] & first)...};
@@ -45,20 +73,9 @@ TYNDALL_VM_INLINE void run_over_lanes(const Step& step, std::size_t first, std::
         Kernel<op>::run(options, Floats(hn::LoadU(d, place[k] + vectors_on * stride[k]))...);
     hn::StoreU(result.raw, d, out + vectors_on * width);
   };
-  if constexpr (is_short(op)) {
-    for (; end - out >= static_cast<std::ptrdiff_t>(4 * width); out += 4 * width) {
-      compute(0), compute(1), compute(2), compute(3);
-      ((place[k] += 4 * stride[k]), ...);
-    }
-  }
-  if constexpr (is_chain(op)) {
-    for (; end - out >= static_cast<std::ptrdiff_t>(2 * width); out += 2 * width) {
-      const FloatsPair result =
-          Kernel<op>::run(options, FloatsPair(hn::LoadU(d, place[k]), hn::LoadU(d, place[k] + stride[k]))...);
-      hn::StoreU(result.a.raw, d, out);
-      hn::StoreU(result.b.raw, d, out + width);
-      ((place[k] += 2 * stride[k]), ...);
-    }
+  for (; end - out >= static_cast<std::ptrdiff_t>(4 * width); out += 4 * width) {
+    compute(0), compute(1), compute(2), compute(3);
+    ((place[k] += 4 * stride[k]), ...);
   }
   for (; out < end; out += width) {
     compute(0);
@@ -68,7 +85,11 @@ TYNDALL_VM_INLINE void run_over_lanes(const Step& step, std::size_t first, std::
 
 template <Op op>
 void run_step(const Step& step, std::size_t first, std::size_t lanes) {
-  run_over_lanes<op>(step, first, lanes, std::make_index_sequence<Kernel<op>::operands>());
+  constexpr auto operands = std::make_index_sequence<Kernel<op>::operands>();
+  if constexpr (is_short(op))
+    run_short_over_lanes<op>(step, first, lanes, operands);
+  else
+    run_over_lanes<op>(step, first, lanes, operands);
 }
 
 constexpr StepFunction functions[] = {

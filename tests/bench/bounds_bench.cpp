@@ -81,10 +81,13 @@ void point_rows(const Vec3d& corner, const Vec3d& extent, std::size_t count, std
   }
 }
 
-// One box of a 64³ grid against one point.
+// One box of a 64³ grid against one point, of the noise shader by itself.
 void bench_boxes(double seconds) {
-  const compile::CompiledScene world = world_of(noise_shader);
-  const vm::Program& program = world.scene.media[0].extinction;
+  vm::Builder builder;
+  const vm::NodeId density =
+      vm::HWY_NAMESPACE::Cloud()(Emitter{builder}, builder.input(vm::Input::p_x),
+                                 builder.input(vm::Input::p_y), builder.input(vm::Input::p_z));
+  const vm::Program program = *builder.finish(std::span(&density, 1));
   constexpr std::size_t count = 4096;
   std::mt19937_64 random(1);
   std::array<std::vector<float>, 3> lo;

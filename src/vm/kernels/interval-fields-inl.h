@@ -42,15 +42,6 @@ template <class V, bool has_time>
 struct FieldBox {
   Bound<V> x, y, z, t;
 };
-// Coordinates that octaves have doubled beyond the largest float give NaN.
-template <bool has_time, class V>
-TYNDALL_VM_INLINE MaskOf<V> overflows(const FieldBox<V, has_time>& box) {
-  const auto space = both(both(is_bounded(box.x), is_bounded(box.y)), is_bounded(box.z));
-  if constexpr (has_time)
-    return !both(space, is_bounded(box.t));
-  else
-    return !space;
-}
 template <bool has_time, class V>
 TYNDALL_VM_INLINE MaskOf<V> may_be_nan(const FieldBox<V, has_time>& box) {
   const auto space = either(either(box.x.nan, box.y.nan), box.z.nan);
@@ -59,61 +50,95 @@ TYNDALL_VM_INLINE MaskOf<V> may_be_nan(const FieldBox<V, has_time>& box) {
   else
     return space;
 }
+// The largest coordinate.
+template <bool has_time, class V>
+TYNDALL_VM_INLINE V largest_size(const FieldBox<V, has_time>& box) {
+  const V space = greater(greater(largest_size(box.x), largest_size(box.y)), largest_size(box.z));
+  if constexpr (has_time)
+    return greater(space, largest_size(box.t));
+  else
+    return space;
+}
+
+// A box of one octave: its middle and half widths, the largest of these, and the largest coordinate.
+template <class V, bool has_time>
+struct OctaveBox {
+  Ball<V> x, y, z, t;
+  V radius, size;
+};
+template <bool has_time, class V>
+TYNDALL_VM_INLINE OctaveBox<V, has_time> first_octave(const FieldBox<V, has_time>& box) {
+  OctaveBox<V, has_time> out{ball_of(box.x), ball_of(box.y), ball_of(box.z),
+                             ball_of(box.t), V(0.0f),        largest_size(box)};
+  out.radius = greater(greater(out.x.radius, out.y.radius), out.z.radius);
+  if constexpr (has_time) out.radius = greater(out.radius, out.t.radius);
+  return out;
+}
+// Each doubling rounds places and middles by up to half an ulp of `size`: the largest half width grows by
+// both, those of the axes are made up for by `rest` of noise_over_box.
+template <bool has_time, class V>
+TYNDALL_VM_INLINE OctaveBox<V, has_time> next_octave(const OctaveBox<V, has_time>& box) {
+  const V two(2.0f);
+  const auto doubled = [&](Ball<V> a, float offset) HWY_ATTR {
+    return Ball<V>{a.center * two + V(offset), a.radius * two};
+  };
+  const V size = box.size * two + V(1.0f);
+  return {doubled(box.x, 0.3125f),
+          doubled(box.y, 0.6875f),
+          doubled(box.z, 0.4375f),
+          has_time ? doubled(box.t, 0.5625f) : box.t,
+          box.radius * two + size * V(0x1p-22f),
+          size};
+}
+// Coordinates that octaves have doubled beyond the largest float give NaN.
+template <bool has_time, class V>
+TYNDALL_VM_INLINE MaskOf<V> overflows(const OctaveBox<V, has_time>& box) {
+  return !(box.size < V(endless));
+}
 
 // One noise over a box: n + g (p - middle) within `rest`, or the bounds alone where the box is too large for
 // that.
 template <class V>
 struct NoiseOverBox {
   Slopes<V> slopes;
-  V rest, lo, hi;
-  MaskOf<V> linear;
+  V rest, half;  // half: of the whole bound around n
+  MaskOf<V> small, linear;
 };
 template <bool has_time, class V>
-TYNDALL_VM_INLINE NoiseOverBox<V> noise_over_box(const FieldBox<V, has_time>& box, std::uint32_t key) {
+TYNDALL_VM_INLINE NoiseOverBox<V> noise_over_box(const OctaveBox<V, has_time>& box, std::uint32_t key) {
   constexpr NoiseConstants constants = has_time ? noise_constants4 : noise_constants3;
   const V zero(0.0f), most(constants.supremum);
-  const Ball<V> x = ball_of(box.x), y = ball_of(box.y), z = ball_of(box.z), t = ball_of(box.t);
-  V radius = greater(greater(x.radius, y.radius), z.radius);
-  V size = greater(greater(largest_size(box.x), largest_size(box.y)), largest_size(box.z));
-  if constexpr (has_time) {
-    radius = greater(radius, t.radius);
-    size = greater(size, largest_size(box.t));
-  }
-  const V curvature = V(0.5f * constants.curvature) * radius * radius;
-  const auto small = both(curvature < most, size < V(lattice_limit));
-  NoiseOverBox<V> out{{zero, zero, zero, zero, zero}, zero, -most, most, never(zero)};
+  const V curvature = V(0.5f * constants.curvature) * box.radius * box.radius;
+  const auto small = both(curvature < most, box.size < V(lattice_limit));
+  NoiseOverBox<V> out{{zero, zero, zero, zero, zero}, zero, zero, small, never(zero)};
   if (!any(small)) return out;
   if constexpr (has_time)
-    out.slopes = noise_slopes(x.center, y.center, z.center, t.center, key);
+    out.slopes = noise_slopes(box.x.center, box.y.center, box.z.center, box.t.center, key);
   else
-    out.slopes = noise_slopes(x.center, y.center, z.center, key);
+    out.slopes = noise_slopes(box.x.center, box.y.center, box.z.center, key);
   const Slopes<V>& s = out.slopes;
-  V reach = abs(s.x) * x.radius + abs(s.y) * y.radius + abs(s.z) * z.radius;
-  V steepness = abs(s.x) + abs(s.y) + abs(s.z);
+  const V steep_x = abs(s.x), steep_y = abs(s.y), steep_z = abs(s.z);
+  V reach = steep_x * box.x.radius + steep_y * box.y.radius + steep_z * box.z.radius;
+  V steepness = steep_x + steep_y + steep_z;
   if constexpr (has_time) {
-    reach = reach + abs(s.t) * t.radius;
+    reach = reach + abs(s.t) * box.t.radius;
     steepness = steepness + abs(s.t);
   }
   // Octaves' coordinates are rounded: their distances from the middle are a few ulps off the first octave's.
-  out.rest =
-      curvature + V(noise_rounding) + V(slope_rounding) * radius + steepness * (size + V(1.0f)) * V(0x1p-18f);
-  const V half = reach + out.rest;
-  out.lo = select(small, greater(-most, s.value - half), -most);
-  out.hi = select(small, lesser(most, s.value + half), most);
-  out.linear = both(small, half < V(0.8f * constants.supremum));
+  out.rest = curvature + V(noise_rounding) + V(slope_rounding) * box.radius +
+             steepness * (box.size + V(1.0f)) * V(0x1p-18f);
+  out.half = reach + out.rest;
+  out.linear = both(small, out.half < V(0.8f * constants.supremum));
   return out;
 }
-
-// The next octave's box, by the same floats as sum_of_octaves.
-template <class V>
-TYNDALL_VM_INLINE Bound<V> next_octave(Bound<V> a, float offset) {
-  return {a.lo * V(2.0f) + V(offset), a.hi * V(2.0f) + V(offset), a.nan};
-}
+// The bounds alone.
 template <bool has_time, class V>
-TYNDALL_VM_INLINE FieldBox<V, has_time> next_octave(const FieldBox<V, has_time>& box) {
-  return {next_octave(box.x, 0.3125f), next_octave(box.y, 0.6875f), next_octave(box.z, 0.4375f),
-          has_time ? next_octave(box.t, 0.5625f) : box.t};
+TYNDALL_VM_INLINE Bound<V> bound_of(const NoiseOverBox<V>& n, MaskOf<V> nan) {
+  const V most((has_time ? noise_constants4 : noise_constants3).supremum);
+  return {select(n.small, greater(-most, n.slopes.value - n.half), -most),
+          select(n.small, lesser(most, n.slopes.value + n.half), most), nan};
 }
+
 inline float sum_of_weights(int octaves) {
   float weight = 1.0f, total = 0.0f;
   for (int octave = 0; octave < octaves; ++octave, weight *= 0.5f) total += weight;
@@ -123,57 +148,70 @@ inline float sum_of_weights(int octaves) {
 // Octaves of plain noise. Their gradients are added before they are bounded: those of different octaves
 // cancel.
 template <bool has_time, class V>
-TYNDALL_VM_INLINE Bound<V> fbm_over_box(const Options& options, int octaves, FieldBox<V, has_time> box) {
+TYNDALL_VM_INLINE Bound<V> fbm_over_box(const Options& options, int octaves,
+                                        const FieldBox<V, has_time>& box) {
   constexpr NoiseConstants constants = has_time ? noise_constants4 : noise_constants3;
   const V zero(0.0f);
   const auto nan = may_be_nan(box);
-  const V radius_x = ball_of(box.x).radius, radius_y = ball_of(box.y).radius,
-          radius_z = ball_of(box.z).radius, radius_t = ball_of(box.t).radius;
+  const OctaveBox<V, has_time> first = first_octave(box);
+  OctaveBox<V, has_time> at = first;
   Slopes<V> sum{zero, zero, zero, zero, zero};
   V rest = zero;
   float weight = 1.0f, frequency = 1.0f;
   for (int octave = 0; octave < octaves; ++octave) {
-    const auto n = noise_over_box(box, seed_key(options.seed, static_cast<std::uint32_t>(octave)));
-    const V share = select(n.linear, V(weight * frequency), zero), half(0.5f * weight);
-    sum.value = sum.value + select(n.linear, n.slopes.value * V(weight), (n.lo + n.hi) * half);
-    rest = rest + select(n.linear, n.rest * V(weight), (n.hi - n.lo) * half);
-    if (any(n.linear)) {
-      sum.x = sum.x + select(n.linear, n.slopes.x * share, zero);
-      sum.y = sum.y + select(n.linear, n.slopes.y * share, zero);
-      sum.z = sum.z + select(n.linear, n.slopes.z * share, zero);
-      if constexpr (has_time) sum.t = sum.t + select(n.linear, n.slopes.t * share, zero);
+    const auto n = noise_over_box(at, seed_key(options.seed, static_cast<std::uint32_t>(octave)));
+    if (all(n.linear)) {
+      const V share(weight * frequency);
+      sum.value = sum.value + n.slopes.value * V(weight);
+      rest = rest + n.rest * V(weight);
+      sum.x = sum.x + n.slopes.x * share;
+      sum.y = sum.y + n.slopes.y * share;
+      sum.z = sum.z + n.slopes.z * share;
+      if constexpr (has_time) sum.t = sum.t + n.slopes.t * share;
+    } else {
+      const V share = select(n.linear, V(weight * frequency), zero), half(0.5f * weight);
+      const Bound<V> alone = bound_of<has_time>(n, nan);
+      sum.value = sum.value + select(n.linear, n.slopes.value * V(weight), (alone.lo + alone.hi) * half);
+      rest = rest + select(n.linear, n.rest * V(weight), (alone.hi - alone.lo) * half);
+      if (any(n.linear)) {
+        sum.x = sum.x + select(n.linear, n.slopes.x * share, zero);
+        sum.y = sum.y + select(n.linear, n.slopes.y * share, zero);
+        sum.z = sum.z + select(n.linear, n.slopes.z * share, zero);
+        if constexpr (has_time) sum.t = sum.t + select(n.linear, n.slopes.t * share, zero);
+      }
     }
     weight *= 0.5f;
     frequency *= 2.0f;
-    box = next_octave(box);
+    at = next_octave(at);
   }
-  V reach = abs(sum.x) * radius_x + abs(sum.y) * radius_y + abs(sum.z) * radius_z;
-  if constexpr (has_time) reach = reach + abs(sum.t) * radius_t;
+  V reach = abs(sum.x) * first.x.radius + abs(sum.y) * first.y.radius + abs(sum.z) * first.z.radius;
+  if constexpr (has_time) reach = reach + abs(sum.t) * first.t.radius;
   const V scale(1.0f / sum_of_weights(octaves));
   const V half = (select(reach < V(endless), reach, V(endless)) + rest) * scale + V(noise_rounding);
   const V most(constants.supremum + noise_rounding), middle = sum.value * scale;
-  return {greater(-most, middle - half), lesser(most, middle + half), either(nan, overflows(box))};
+  return {greater(-most, middle - half), lesser(most, middle + half), either(nan, overflows(at))};
 }
 
 // Octaves of a shape of noise: each octave's bounds, through the shape.
 template <bool has_time, class V, class Shape>
 TYNDALL_VM_INLINE Bound<V> shapes_over_box(const Options& options, const Shape& shape,
-                                           FieldBox<V, has_time> box) {
+                                           const FieldBox<V, has_time>& box) {
   const auto nan = may_be_nan(box);
   V lo(0.0f), hi(0.0f);
   float weight = 1.0f;
+  OctaveBox<V, has_time> at = first_octave(box);
   for (int octave = 0; octave < options.octaves; ++octave) {
-    const auto n = noise_over_box(box, seed_key(options.seed, static_cast<std::uint32_t>(octave)));
-    const Bound<V> size = size_of(Bound<V>{n.lo, n.hi, nan});
+    const auto n = noise_over_box(at, seed_key(options.seed, static_cast<std::uint32_t>(octave)));
+    const Bound<V> size = size_of(bound_of<has_time>(n, nan));
     // Both shapes are monotone in |noise| up to 1, and the ridge rises again from 1 to the supremum.
     const V one(1.0f), least = lesser(shape(lesser(one, size.lo)), shape(lesser(one, size.hi)));
     lo = lo + least * V(weight);
     hi = hi + greater(shape(size.lo), shape(size.hi)) * V(weight);
     weight *= 0.5f;
-    box = next_octave(box);
+    at = next_octave(at);
   }
   const V scale(1.0f / sum_of_weights(options.octaves)), slack(noise_rounding);
-  return {lo * scale - slack, hi * scale + slack, either(nan, overflows(box))};
+  return {lo * scale - slack, hi * scale + slack, either(nan, overflows(at))};
 }
 // (a - mean) * factor, widened by its rounding.
 template <class V>

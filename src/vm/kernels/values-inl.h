@@ -61,6 +61,8 @@ inline bool less_signed(std::uint32_t a, std::uint32_t b) {
 }
 inline bool any(bool m) { return m; }
 inline bool all(bool m) { return m; }
+// m ? a + b : a.
+inline float add_where(bool m, float a, float b) { return m ? a + b : a; }
 // f(a) where m, one lane at a time: for arguments too rare to deserve a kernel.
 inline float replace_lanes(bool m, float a, float otherwise, float (*f)(float)) {
   return m ? f(a) : otherwise;
@@ -142,6 +144,13 @@ HWY_INLINE Mask less_signed(Bits a, Bits b) {
 }
 HWY_INLINE bool any(Mask m) { return !hn::AllFalse(FloatTag(), m.raw); }
 HWY_INLINE bool all(Mask m) { return hn::AllTrue(FloatTag(), m.raw); }
+HWY_INLINE Floats add_where(Mask m, Floats a, Floats b) {
+#if HWY_TARGET <= HWY_AVX3
+  return hn::IfThenElse(m.raw, hn::Add(a.raw, b.raw), a.raw);  // one instruction
+#else
+  return hn::Add(a.raw, hn::IfThenElseZero(m.raw, b.raw));
+#endif
+}
 HWY_INLINE Floats replace_lanes(Mask m, Floats a, Floats otherwise, float (*f)(float)) {
   const FloatTag d;
   HWY_ALIGN float lanes[HWY_MAX_BYTES / sizeof(float)];
