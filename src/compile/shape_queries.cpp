@@ -180,9 +180,20 @@ Intervald stay(const scene::Curves&, const Vec3d&, const Vec3d&) { return {}; }
 Intervald stay(const scene::Sphere& s, const Vec3d& origin, const Vec3d& direction) {
   return crossings(s, origin, direction);
 }
+// The interval that `crossings` gives, without the faces and so without branches that are hard to foretell.
 Intervald stay(const scene::Box& b, const Vec3d& origin, const Vec3d& direction) {
-  int entry_axis = 0, exit_axis = 0;
-  return crossings(b, origin, direction, entry_axis, exit_axis);
+  Intervald inside{-infinity, infinity};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (direction[axis] == 0) {
+      if (origin[axis] < b.min[axis] || origin[axis] >= b.max[axis]) return {};
+      continue;
+    }
+    const double t0 = (b.min[axis] - origin[axis]) / direction[axis],
+                 t1 = (b.max[axis] - origin[axis]) / direction[axis];
+    inside.lo = std::max(inside.lo, std::min(t0, t1));
+    inside.hi = std::min(inside.hi, std::max(t0, t1));
+  }
+  return inside;
 }
 Intervald stay(const scene::Plane&, const Vec3d&, const Vec3d&) { return {}; }
 Intervald stay(const scene::Quad&, const Vec3d&, const Vec3d&) { return {}; }

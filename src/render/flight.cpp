@@ -38,7 +38,7 @@ double uniform_extinction(const CompiledScene& world, const compile::CompiledVol
   const scene::Medium& medium = world.scene.media[volume.medium];
   MediumLanes lanes(world, medium.extinction, worker);
   lanes.reserve(1);
-  lanes.set(volume, m.ray, 0, 1, [t](std::size_t) { return t; });
+  lanes.set(volume, m.ray, 0, PlacedSamples{&t, 1});
   std::vector<float> values(medium.extinction.outputs.size());
   worker.outputs.clear();
   for (float& v : values) worker.outputs.push_back(&v);

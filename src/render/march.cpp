@@ -81,15 +81,12 @@ void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
     r.first = m.progress.laid;
     m.progress.laid += r.count;
   }
-  m.t0.resize(m.progress.laid);
-  m.dt.resize(m.progress.laid);
-  for (const Region& r : m.regions) {
-    const double dt = r.t.length() / r.count;
-    for (std::uint32_t k = 0; k < r.count; ++k) {
-      m.t0[r.first + k] = r.t.lo + k * dt;
-      m.dt[r.first + k] = dt;
-    }
+  if (const std::size_t room = m.progress.laid + widest_lanes; m.t0.size() < room) {
+    m.t0.resize(room);
+    m.dt.resize(room);
   }
+  for (const Region& r : m.regions)
+    lay_even_segments(r.t.lo, r.t.length() / r.count, r.count, m.t0.data() + r.first, m.dt.data() + r.first);
 }
 
 // The blocks of segments [first, end).
@@ -136,9 +133,12 @@ void lay_batches(const CompiledScene& world, std::span<const MarchRequest> reque
   if (worker.march_pool.size() < floats) worker.march_pool.resize(floats);
 }
 
+// Where media are evaluated: somewhere in each segment, or at its start.
+enum class Places { in_segments, at_starts };
+
 // Runs one medium's program over the segments of all rays in it.
 void evaluate_batch(const CompiledScene& world, std::span<const MarchRequest> requests,
-                    std::span<const MarchBatchEntry> entries, Worker& worker) {
+                    std::span<const MarchBatchEntry> entries, Places places, Worker& worker) {
   const std::uint32_t medium = entries.front().medium;
   const vm::Program& program = world.scene.media[medium].full;
   const Block& front = requests[entries.front().request].out->blocks[entries.front().block];
@@ -157,10 +157,13 @@ void evaluate_batch(const CompiledScene& world, std::span<const MarchRequest> re
       const MarchRequest& request = requests[e.request];
       const March& m = *request.out;
       const Block& b = m.blocks[e.block];
-      lanes.set(world.volumes[b.volume], m.ray, lane, b.row_length, [&](std::size_t k) {
-        const auto s = static_cast<std::uint32_t>(b.first + k);
-        return m.t0[s] + jitter(request.seed, s) * m.dt[s];
-      });
+      const double* const t0 = m.t0.data() + b.first;
+      const compile::CompiledVolume& volume = world.volumes[b.volume];
+      if (places == Places::at_starts)
+        lanes.set(volume, m.ray, lane, PlacedSamples{t0, b.row_length});
+      else
+        lanes.set(volume, m.ray, lane,
+                  SegmentSamples{t0, m.dt.data() + b.first, request.seed, b.first, b.row_length});
       lane += b.row_length;
     }
   }
@@ -173,13 +176,13 @@ void evaluate_batch(const CompiledScene& world, std::span<const MarchRequest> re
 
 // Runs the programs over the new blocks: one batch a medium.
 void evaluate(const CompiledScene& world, std::span<const MarchRequest> requests,
-              std::span<const std::uint32_t> going, Worker& worker) {
+              std::span<const std::uint32_t> going, Places places, Worker& worker) {
   lay_batches(world, requests, going, worker);
   const std::span<const MarchBatchEntry> entries = worker.march_batch;
   for (std::size_t first = 0; first < entries.size();) {
     std::size_t last = first;
     while (last < entries.size() && entries[last].medium == entries[first].medium) ++last;
-    evaluate_batch(world, requests, entries.subspan(first, last - first), worker);
+    evaluate_batch(world, requests, entries.subspan(first, last - first), places, worker);
     first = last;
   }
 }
@@ -198,7 +201,7 @@ void add_output(const float* pool, const Block& b, std::size_t output, std::vect
 void add_coefficients(const CompiledScene& world, const float* pool, std::uint32_t end, March& m) {
   const bool emission = world.features.medium_emission;
   const auto extend = [&](std::vector<float>& row) {
-    if (row.size() < end) row.resize(end);
+    if (row.size() < end + widest_lanes) row.resize(end + widest_lanes);
     std::fill(row.begin() + m.count, row.begin() + end, 0.0f);
   };
   for (int c = 0; c < m.channels; ++c) {
@@ -266,11 +269,11 @@ void march(const CompiledScene& world, std::span<const MarchRequest> requests, W
                                  : m.progress.laid;
       lay_blocks(world, m.count, m.progress.round_end, m);
     }
-    evaluate(world, requests, going, worker);
+    evaluate(world, requests, going, Places::in_segments, worker);
     std::erase_if(going, [&](std::uint32_t i) {
       March& m = *requests[i].out;
       add_coefficients(world, worker.march_pool.data(), m.progress.round_end, m);
-      add_segments(world, m.progress.round_end, worker.reach, m);
+      add_segments(world, m.progress.round_end, worker, m);
       return m.count == m.progress.laid || !goes_on_in_the_dark(requests[i].seed, round, m);
     });
   }
@@ -309,7 +312,7 @@ void evaluate_points(const CompiledScene& world, std::span<const MarchRequest> r
       m.blocks.push_back(block);
     }
   }
-  evaluate(world, requests, all_of(requests, worker), worker);
+  evaluate(world, requests, all_of(requests, worker), Places::at_starts, worker);
   for (const MarchRequest& request : requests) {
     March& m = *request.out;
     const auto count = static_cast<std::uint32_t>(m.t0.size());

@@ -193,7 +193,7 @@ class PhaseMixture {
   };
   std::vector<Lobe> lobes_;
   // Whose lobes these are, for ever; null: they are of one place.
-  const scene::Medium* constant_medium_ = nullptr;
+  const scene::Medium* kept_medium_ = nullptr;
 };
 
 }  // namespace tyndall::render

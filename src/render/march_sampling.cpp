@@ -56,14 +56,29 @@ double DensityDistribution::pdf(const MarchPlace& at) const {
   return pdf;
 }
 
+namespace {
+
+// A medium whose lobes are the same wherever it is alone: with one value of everything, or with one lobe, of
+// which the share is all.
+bool keeps_lobes(const compile::CompiledScene& world, std::uint32_t medium) {
+  if (world.media[medium].constant) return true;
+  const std::vector<scene::PhaseLobe>& phase = world.scene.media[medium].phase;
+  return phase.size() == 1 && !phase[0].parameters[0].output && !phase[0].parameters[1].output &&
+         !phase[0].weight.output && phase[0].weight.value > 0;
+}
+
+}  // namespace
+
 void PhaseMixture::set(const compile::CompiledScene& world, const March& m, std::uint32_t segment) {
-  const scene::Medium* constant = nullptr;
-  if (m.blocks.size() == 1) {
-    const std::uint32_t medium = world.volumes[m.blocks[0].volume].medium;
-    if (world.media[medium].constant) constant = &world.scene.media[medium];
+  const scene::Medium* kept = nullptr;
+  int holding = 0;
+  for (const Block& b : m.blocks) {
+    if (!b.holds(segment)) continue;
+    const std::uint32_t medium = world.volumes[b.volume].medium;
+    kept = holding++ == 0 && keeps_lobes(world, medium) ? &world.scene.media[medium] : nullptr;
   }
-  if (constant && constant == constant_medium_) return;
-  constant_medium_ = constant;
+  if (kept && kept == kept_medium_) return;
+  kept_medium_ = kept;
   lobes_.clear();
   Rgb total;
   for (const Block& b : m.blocks) {
@@ -83,6 +98,11 @@ void PhaseMixture::set(const compile::CompiledScene& world, const March& m, std:
       total += out.share;
       lobes_.push_back(out);
     }
+  }
+  if (kept && lobes_.size() == 1) {  // of whatever is scattered there, and be it nothing
+    lobes_[0].share = Rgb(1);
+    lobes_[0].probability = 1;
+    return;
   }
   float sum = 0;
   for (Lobe& lobe : lobes_) {

@@ -5,6 +5,8 @@
 
 #include "base/numerics.h"
 #include "render/dark.h"
+#include "render/march_lanes.h"
+#include "render/worker.h"
 
 namespace tyndall::render {
 
@@ -21,26 +23,19 @@ double cross_until(double t, std::size_t channel, double transmittance, March& m
 
 // Transmittance at every segment's start, and ∫ T over every segment (into `reach`), each exact for constant
 // coefficients.
-void add_transmittance(std::size_t channel, std::uint32_t end, std::vector<double>& reach, March& m) {
-  const std::vector<float>& sigma_t = m.sigma_t[channel];
+void add_transmittance(std::size_t channel, std::uint32_t end, Worker& worker, March& m) {
   std::vector<double>& transmittance = m.transmittance[channel];
-  double t = transmittance[m.count];
   if (transmittance.size() <= end) transmittance.resize(end + 1);
+  double* const through = worker.through.data();
+  double* const reach = worker.reach.data();
+  transmit_segments(m.sigma_t[channel].data(), m.dt.data(), m.count, end, through, reach);
+  double t = transmittance[m.count];
+  const bool crosses = m.progress.crossings[channel] < m.crossings.size();
   for (std::uint32_t i = m.count; i < end; ++i) {
-    t = cross_until(m.t0[i], channel, t, m);
+    if (crosses) t = cross_until(m.t0[i], channel, t, m);
     transmittance[i] = t;
-    const double sigma = sigma_t[i], depth = sigma * m.dt[i];
-    reach[i] = t * m.dt[i];
-    if (depth == 0) continue;
-    // Either way 1 - T and the sum of sigma * reach are equal to rounding.
-    if (depth < 0.25) {
-      reach[i] *= exp_average(depth);
-      t -= sigma * reach[i];
-    } else {
-      const double through = std::exp(-depth);
-      reach[i] *= (1 - through) / depth;
-      t *= through;
-    }
+    reach[i] *= t;
+    t *= through[i];
   }
   transmittance[end] = t;
 }
@@ -58,11 +53,14 @@ void begin_sums(March& m) {
   for (int c = 0; c < m.channels; ++c) begin(m.scattered[c], 0);
 }
 
-void add_segments(const compile::CompiledScene& world, std::uint32_t end, std::vector<double>& reach,
-                  March& m) {
-  if (reach.size() < end) reach.resize(end);
+void add_segments(const compile::CompiledScene& world, std::uint32_t end, Worker& worker, March& m) {
+  if (worker.reach.size() < end + widest_lanes) {
+    worker.reach.resize(end + widest_lanes);
+    worker.through.resize(end + widest_lanes);
+  }
+  const double* const reach = worker.reach.data();
   for (int c = 0; c < m.channels; ++c) {
-    if (c < m.extinction_channels) add_transmittance(static_cast<std::size_t>(c), end, reach, m);
+    if (c < m.extinction_channels) add_transmittance(static_cast<std::size_t>(c), end, worker, m);
     double s = m.scattered[c][m.count];
     if (m.scattered[c].size() <= end) m.scattered[c].resize(end + 1);
     for (std::uint32_t i = m.count; i < end; ++i) {

@@ -10,9 +10,8 @@
 namespace tyndall::render {
 
 void begin_sums(March& march);
-// Segments [march.count, end); march.count is then `end`. `reach` is scratch.
-void add_segments(const compile::CompiledScene& world, std::uint32_t end, std::vector<double>& reach,
-                  March& march);
+// Segments [march.count, end); march.count is then `end`.
+void add_segments(const compile::CompiledScene& world, std::uint32_t end, Worker& worker, March& march);
 // Russian roulette on the transmittance after the segments so far. False when the march ends there: nothing
 // passes. When it goes on, all behind counts the more, so that no mean changes. `seed` is that of the march's
 // jitter.

@@ -19,7 +19,7 @@ void MediumLanes::reserve(std::size_t capacity) {
   const auto grow = [&](vm::Input input) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       auto& lanes = worker_.inputs[static_cast<std::size_t>(input) + axis];
-      if (lanes.size() < capacity) lanes.resize(capacity);
+      if (lanes.size() < capacity + widest_lanes) lanes.resize(capacity + widest_lanes);
     }
   };
   if (needs_p_) grow(vm::Input::p_x);

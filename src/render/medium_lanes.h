@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "compile/compiled_scene.h"
+#include "render/march_lanes.h"
 #include "render/worker.h"
 #include "vm/program.h"
 
@@ -16,27 +17,22 @@ class MediumLanes {
 
   // Makes room for `capacity` lanes.
   void reserve(std::size_t capacity);
-  // Sets lanes [first, first + count) to the points of the ray at t(0), t(1), … [m] inside the volume.
-  template <class T>
+  // Sets the lanes from `first` on to samples of the ray (march_lanes.h) inside the volume. Lanes are set in
+  // order: what is behind them may be overwritten.
+  template <class Samples>
   void set(const compile::CompiledVolume& volume, const compile::Ray& ray, std::size_t first,
-           std::size_t count, T&& t) {
-    std::vector<double>& distances = worker_.lane_distances;
-    if (distances.size() < count) distances.resize(count);
-    for (std::size_t i = 0; i < count; ++i) distances[i] = t(i);
+           const Samples& samples) {
     const auto put = [&](vm::Input input, const Vec3d& origin, const Vec3d& direction) {
-      const double* const along = distances.data();
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        float* const lanes = worker_.inputs[static_cast<std::size_t>(input) + axis].data() + first;
-        const double o = origin[axis], d = direction[axis];
-        for (std::size_t i = 0; i < count; ++i) lanes[i] = static_cast<float>(o + d * along[i]);
-      }
+      auto* const rows = &worker_.inputs[static_cast<std::size_t>(input)];
+      put_on_line(samples, origin, direction, rows[0].data() + first, rows[1].data() + first,
+                  rows[2].data() + first);
     };
     if (needs_p_) {
       const Transform medium_from_render = volume.medium_from_render_at(ray.time);
       put(vm::Input::p_x, medium_from_render.point(ray.origin), medium_from_render.vector(ray.direction));
     }
     if (needs_world_) put(vm::Input::P_x, ray.origin + world_.origin, ray.direction);
-    if (needs_time_ && count > 0 &&
+    if (needs_time_ && samples.count > 0 &&
         (worker_.lane_times.empty() || worker_.lane_times.back().time != ray.time))
       worker_.lane_times.push_back({first, ray.time});
   }

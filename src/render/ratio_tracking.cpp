@@ -95,8 +95,10 @@ void RatioTracking::evaluate(const compile::CompiledScene& world, std::span<cons
     std::size_t lane = 0;
     for (std::size_t w = first; w < last; lane += walks_[w].count, ++w) {
       const Walk& walk = walks_[w];
-      lanes.set(world.volumes[walk.volume], rays[walk.ray].ray, lane, walk.count,
-                [&](std::size_t k) { return points_[walk.first + k].t; });
+      worker.lane_places.clear();
+      for (std::size_t k = 0; k < walk.count; ++k) worker.lane_places.push_back(points_[walk.first + k].t);
+      lanes.set(world.volumes[walk.volume], rays[walk.ray].ray, lane,
+                PlacedSamples{worker.lane_places.data(), walk.count});
     }
     values_.resize(count * program.outputs.size());
     worker.outputs.clear();

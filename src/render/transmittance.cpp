@@ -205,10 +205,8 @@ void ShadowBatch::march_stays(const compile::CompiledScene& world, Worker& worke
     std::size_t lane = 0;
     for (auto s = first; s != last; lane += s->count, ++s) {
       const std::uint32_t seed = march_seed(rays_[s->ray].seed, s->march - estimates_[s->ray].first);
-      lanes.set(world.volumes[s->volume], rays_[s->ray].ray, lane, s->count, [&](std::size_t k) {
-        const auto i = s->first + static_cast<std::uint32_t>(k);
-        return s->t0 + (static_cast<double>(k) + jitter(seed, i)) * s->dt;
-      });
+      lanes.set(world.volumes[s->volume], rays_[s->ray].ray, lane,
+                EvenSamples{s->t0, s->dt, seed, s->first, s->count});
     }
     values_.resize(count * program.outputs.size());
     worker.outputs.clear();

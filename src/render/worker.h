@@ -63,7 +63,7 @@ struct Worker {
   BadValueCounts bad_values;
   std::array<std::vector<float>, vm::input_count> inputs;  // lanes of one batch
   std::vector<float*> outputs, shifted_outputs;
-  std::vector<double> lane_distances;  // [m] along its ray, of lanes of one batch
+  std::vector<double> lane_places;  // [m] along its ray, of a walk's candidates
   struct LaneTime {
     std::size_t first;  // lane
     double time;        // of this and the next ones
@@ -90,7 +90,7 @@ struct Worker {
   std::vector<FlightRequest> flight_requests;
   compile::BoundsScratch bounds;
   compile::KindWalk kinds;
-  std::vector<double> edges, reach;  // of the march at work
+  std::vector<double> edges, through, reach;  // of the march at work
   std::vector<compile::VolumeInterval> intervals;
   std::vector<std::uint32_t> active;  // stretches
   std::vector<CertifiedCell> certified_cells;

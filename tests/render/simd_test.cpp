@@ -5,10 +5,9 @@
 
 #include <algorithm>
 
-#include "hwy/targets.h"
 #include "render/render.h"
 #include "support/scene_builder.h"
-#include "vm/machine.h"
+#include "support/simd_classes.h"
 
 namespace tyndall {
 namespace {
@@ -34,23 +33,16 @@ TEST(SimdClasses, RenderTheSamePictureToTheBit) {
   }));
   builder.volume(scene::Box{{-2, -2, -2}, {2, -1, 2}}, builder.constant(colors));
   const scene::Scene scene = builder.scene;
-  const std::int64_t supported = hwy::SupportedTargets();
-  std::vector<std::string> classes;
   std::vector<float> first;
-  for (std::int64_t bit = 1; bit > 0 && bit < (std::int64_t{1} << 16); bit <<= 1) {
-    hwy::GetChosenTarget().Update(supported & bit);
-    const std::string name = vm::simd_name();
-    if (std::find(classes.begin(), classes.end(), name) != classes.end()) continue;
-    classes.push_back(name);
+  const std::size_t classes = for_each_simd_class([&](const std::string& name) {
     const compile::CompiledScene world = compile::compile(scene);
     render::RenderOptions options;
     options.threads = 1;
     const std::vector<float> pixels = render::render(world, options).film.image().pixels;
     if (first.empty()) first = pixels;
-    EXPECT_EQ(pixels, first) << name << " and " << classes[0];
-  }
-  hwy::GetChosenTarget().Update(supported);
-  EXPECT_GE(classes.size(), 2u);
+    EXPECT_EQ(pixels, first) << name;
+  });
+  EXPECT_GE(classes, 2u);
   EXPECT_GT(*std::max_element(first.begin(), first.end()), 0.0f);
 }
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "hwy/targets.h"
+#include "support/simd_classes.h"
 #include "vm/builder.h"
 #include "vm/machine.h"
 
@@ -105,21 +105,6 @@ inline std::vector<float> run(Machine& machine, const Program& program, const Ba
   return result;
 }
 
-// Runs body once for every SIMD class of this processor that the machine was compiled for.
-template <class Body>
-void for_each_simd_class(const Body& body) {
-  const std::int64_t supported = hwy::SupportedTargets();
-  std::vector<std::string> seen;
-  for (std::int64_t bit = 1; bit > 0 && bit < (std::int64_t{1} << 16); bit <<= 1) {
-    hwy::GetChosenTarget().Update(supported & bit);
-    const std::string name = simd_name();
-    if (std::find(seen.begin(), seen.end(), name) == seen.end()) {
-      seen.push_back(name);
-      SCOPED_TRACE(name);
-      body(name);
-    }
-  }
-  hwy::GetChosenTarget().Update(supported);
-}
+using support::for_each_simd_class;
 
 }  // namespace tyndall::vm
