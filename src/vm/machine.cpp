@@ -71,6 +71,7 @@ struct Chunk {
       if (prepared.outputs()[k].row) prepared.write_output(k, issued == used ? outputs[k] + begin : nullptr);
   }
   void finish_outputs() const {
+    if (issued == used && prepared.outputs_are_rows()) return;
     for (std::size_t k = 0; k < outputs.size(); ++k) {
       const Prepared::Output& output = prepared.outputs()[k];
       float* const to = outputs[k] + begin;

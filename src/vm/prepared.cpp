@@ -27,7 +27,10 @@ Prepared::Prepared(const Program& program, Rows& rows)
   std::size_t next_row = 0;
   for (std::size_t k = 0; k < program.inputs.size(); ++k) {
     LaneInput& input = inputs_.emplace_back();
-    if (is_uniform(program.inputs[k])) continue;
+    if (is_uniform(program.inputs[k])) {
+      has_uniform_inputs_ = true;
+      continue;
+    }
     input.row = rows[next_row++];
     operands_[program.first_input() + k] = {input.row, true};
   }
@@ -92,10 +95,12 @@ void Prepared::find_places(const Program& program) {
       output.same_as = static_cast<std::int32_t>(same - program.outputs.begin());
     else
       output.places = places[operand], output.row = operands_[operand].data;
+    outputs_are_rows_ &= output.row != nullptr;
   }
 }
 
 void Prepared::set_uniform_inputs(const Program& program, const BatchInputs& inputs) {
+  if (uniforms_valid_ && !has_uniform_inputs_) return;
   for (std::size_t k = 0; k < program.inputs.size(); ++k) {
     if (!is_uniform(program.inputs[k])) continue;
     CHECK(inputs[program.inputs[k]] != nullptr);

@@ -70,6 +70,8 @@ class Prepared {
     RowPlaces places;                // of the row, from its last writer on
   };
   const std::vector<Output>& outputs() const { return outputs_; }
+  // Whether the code leaves every output in a row of its own.
+  bool outputs_are_rows() const { return outputs_are_rows_; }
   // The output, which must have places, is written to `to` from now on; null: to its row.
   void write_output(std::size_t output, float* to) {
     Output& o = outputs_[output];
@@ -116,6 +118,8 @@ class Prepared {
   std::vector<Guard> guards_;
   std::vector<LaneInput> inputs_;
   std::vector<Output> outputs_;
+  bool outputs_are_rows_ = true;
+  bool has_uniform_inputs_ = false;
   bool uniforms_valid_ = false;
 };
 

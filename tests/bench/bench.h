@@ -11,8 +11,8 @@ bool bench_scenes(double seconds);
 // batches of 256. False when a scene cannot be read or a target is missed.
 bool bench_batches();
 
-// Bounds against points, grids of a cloud, and what skipping empty space saves.
-void bench_bounds(double seconds_a_row);
+// Bounds against points, grids of a cloud, and what skipping empty space saves. False when a target is missed.
+bool bench_bounds(double seconds_a_row);
 
 // Ten lights against a thousand, at equal error. False when a thousand cost more than three times as much.
 bool bench_lights();

@@ -23,7 +23,7 @@ constexpr std::array benchmarks{
     Benchmark{"vm", true, [](double seconds) { return vm::bench(seconds); }},
     Benchmark{"ops", false, [](double seconds) { return vm::bench_ops(seconds / 10), true; }},
     Benchmark{"batches", true, [](double) { return bench_batches(); }},
-    Benchmark{"bounds", true, [](double seconds) { return bench_bounds(seconds), true; }},
+    Benchmark{"bounds", true, [](double seconds) { return bench_bounds(seconds); }},
     Benchmark{"lights", true, [](double) { return bench_lights(); }},
     Benchmark{"fire", false, [](double) { return bench_fire(); }},
     Benchmark{"hair", false, [](double) { return bench_hair(); }},
