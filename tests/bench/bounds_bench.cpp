@@ -179,15 +179,17 @@ bool bench_grid(const char* name, const support::Density& density, double second
         proved += cell.kind == compile::CellKind::empty;
         if (most > 0) bound += static_cast<double>(cell.majorant), truth += static_cast<double>(most);
       }
-  const double microseconds = median(times) * 1e6, tightness = bound / truth,
-               share = empty > 0 ? static_cast<double>(proved) / static_cast<double>(empty) : 1.0;
+  const double microseconds = median(times) * 1e6, tightness = bound / truth;
+  // A few cells may be thin enough for samples to miss what is in them.
+  const bool has_empty_space = empty > cells / 100;
+  const double share = has_empty_space ? static_cast<double>(proved) / static_cast<double>(empty) : 1.0;
   fmt::print("a cell, refined once where loose        {:6.2f} us  {}: at most 1\n", microseconds,
              verdict(microseconds <= 1));
   fmt::print("violations in {} samples          {:6}  {}: none\n", cells * samples, violations,
              verdict(violations == 0));
   fmt::print("majorant over largest sample            {:6.2f}  {}: at most 2.1\n", tightness,
              verdict(tightness <= 2.1));
-  if (empty > 0)
+  if (has_empty_space)
     fmt::print("empty cells proved                      {:6.1f} %  {}: at least 80\n", 100 * share,
                verdict(share >= 0.8));
   return microseconds <= 1 && violations == 0 && tightness <= 2.1 && share >= 0.8;
@@ -249,7 +251,7 @@ bool bench_bounds(double seconds) {
   bool good = bench_boxes(seconds);
   good &= bench_grid("cloud, 20 smoothstep(1, 0.4, length(p) + 0.35 fbm(2.3 p, octaves: 6))", round_cloud,
                      seconds);
-  good &= bench_grid("the noise shader, which is nowhere empty", noise_shader, seconds);
+  good &= bench_grid("the noise shader, which is empty outside of a ball and above y = 0", noise_shader, seconds);
   good &= bench_skipping("cloud in 5 % of its box, whole box", small_cloud, {0, 1.2, 5}, seconds);
   good &= bench_skipping("cloud in 5 % of its box, from near", small_cloud, {0, 0.2, 1.9}, seconds);
   good &= bench_skipping("warped, whole box", small_warped_cloud, {0, 1.2, 5}, seconds);

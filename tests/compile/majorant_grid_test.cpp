@@ -76,6 +76,21 @@ TEST(MajorantGrids, APowerOfNothingIsProvedEmpty) {
   EXPECT_NEAR(middle.majorant, std::pow(0.5f, 1.5f), 1e-3f);
 }
 
+// And by mixes: nothing mixed with nothing is nothing, in whatever shares.
+TEST(MajorantGrids, AMixOfNothingIsProvedEmpty) {
+  const Built b = built([](const Point& p) {
+    vm::Builder& builder = *p.x.builder;
+    const Expression ball = max(0.5f - length(p), 0), eroded = ball * exp(p.x);
+    return Expression{&builder, builder.emit(vm::Op::mix, {ball.node, eroded.node, (p.y * 3.f).node}, {})};
+  });
+  BoundsScratch scratch;
+  EXPECT_EQ(b.grid().at({0.9, 0.9, 0.9}, scratch).kind, CellKind::empty);
+  const CellBounds middle = b.grid().at({0, 0, 0}, scratch);
+  EXPECT_EQ(middle.kind, CellKind::varying);
+  EXPECT_LE(middle.minorant, 0.5f);
+  EXPECT_GE(middle.majorant, 0.5f);
+}
+
 TEST(MajorantGrids, HoldAtEveryPoint) {
   const Built b = built(cloud);
   BoundsScratch scratch;

@@ -191,7 +191,8 @@ TYNDALL_VM_BOUND2(mod) {
   all = choose(rough, anything(a.lo), all);
   return choose(both(inside, !rough), Bound<V>{from, to, all.nan}, all);
 }
-// a (1 - c) + b c is linear in each: its extremes are at ends. Widened by the rounding of a + (b - a) c.
+// a (1 - c) + b c is linear in each: its extremes are at ends. Widened by the rounding of a + (b - a) c, but
+// where both are nothing, which proves emptiness.
 TYNDALL_VM_BOUND3(mix) {
   const V zero(0.0f), one(1.0f);
   const bool between = all(both(c.lo >= zero, c.hi <= one));
@@ -206,7 +207,7 @@ TYNDALL_VM_BOUND3(mix) {
     return select(u < zero, a.lo, a.hi) * u + select(w < zero, b.lo, b.hi) * w;
   };
   const V size = (largest_size(a) + largest_size(b)) * (one + largest_size(c));
-  const V slack = size * V(0x1p-21f) + V(least_float);
+  const V slack = select(size > zero, size * V(0x1p-21f) + V(least_float), zero);
   const V lo = lesser(lowest(c.lo), lowest(c.hi)) - slack, hi = greater(highest(c.lo), highest(c.hi)) + slack;
   const Bound<V> result = from_to(lo, hi, either(either(a.nan, b.nan), c.nan));
   return choose(size < V(endless), result, anything(a.lo));
