@@ -362,7 +362,7 @@ class PathTracer {
 
   // How many paths advance together, at least while there are samples: their segments fill batches of
   // hundreds of lanes. Where no medium varies there are few segments, and more paths would leave the cache.
-  std::size_t paths_together() const { return world_.features.heterogeneous ? 128 : 16; }
+  std::size_t paths_together() const { return world_.features.heterogeneous ? 192 : 16; }
 
   const Sampler& sampler() const { return *path_->sampler; }
   std::uint64_t id(Decision d, const PathState& s) const { return decision(d, s.depth, s.branch); }
