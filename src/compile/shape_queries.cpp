@@ -26,21 +26,24 @@ Intervald crossings(const scene::Sphere& s, const Vec3d& origin, const Vec3d& di
   return {along - half, product / (along - half)};
 }
 
-// Both crossings of a box by slabs; `entry_axis`, `exit_axis` tell through which faces.
-Intervald crossings(const scene::Box& b, const Vec3d& origin, const Vec3d& direction, int& entry_axis,
-                    int& exit_axis) {
+// Where the line passes between the two faces of a box across an axis that it does not run along.
+Intervald between_faces(const scene::Box& b, const Vec3d& origin, const Vec3d& direction, int axis) {
+  const double t0 = (b.min[axis] - origin[axis]) / direction[axis],
+               t1 = (b.max[axis] - origin[axis]) / direction[axis];
+  return {std::min(t0, t1), std::max(t0, t1)};
+}
+
+// Both crossings of a box by slabs, without branches that are hard to foretell.
+Intervald crossings(const scene::Box& b, const Vec3d& origin, const Vec3d& direction) {
   Intervald inside{-infinity, infinity};
-  entry_axis = exit_axis = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (direction[axis] == 0) {
       if (origin[axis] < b.min[axis] || origin[axis] >= b.max[axis]) return {};
       continue;
     }
-    double t0 = (b.min[axis] - origin[axis]) / direction[axis],
-           t1 = (b.max[axis] - origin[axis]) / direction[axis];
-    if (t0 > t1) std::swap(t0, t1);
-    if (t0 > inside.lo) inside.lo = t0, entry_axis = axis;
-    if (t1 < inside.hi) inside.hi = t1, exit_axis = axis;
+    const Intervald slab = between_faces(b, origin, direction, axis);
+    inside.lo = std::max(inside.lo, slab.lo);
+    inside.hi = std::min(inside.hi, slab.hi);
   }
   return inside;
 }
@@ -96,12 +99,17 @@ std::optional<ShapeHit> hit(const scene::Sphere& s, const Vec3d& origin, const V
 }
 
 std::optional<ShapeHit> hit(const scene::Box& b, const Vec3d& origin, const Vec3d& direction, double t_max) {
-  int entry_axis = 0, exit_axis = 0;
-  const Intervald i = crossings(b, origin, direction, entry_axis, exit_axis);
+  const Intervald i = crossings(b, origin, direction);
   const double t = first_crossing(i, t_max);
   if (t < 0) return std::nullopt;
   const bool entering = t == i.lo;
-  const int axis = entering ? entry_axis : exit_axis;
+  // Through the first face that lies there.
+  int axis = 0;
+  for (; axis < 2; ++axis) {
+    if (direction[axis] == 0) continue;
+    const Intervald slab = between_faces(b, origin, direction, axis);
+    if ((entering ? slab.lo : slab.hi) == t) break;
+  }
   const bool at_max = (direction[axis] > 0) != entering;
   Vec3d position = origin + direction * t, normal;
   position[axis] = at_max ? b.max[axis] : b.min[axis];
@@ -180,20 +188,8 @@ Intervald stay(const scene::Curves&, const Vec3d&, const Vec3d&) { return {}; }
 Intervald stay(const scene::Sphere& s, const Vec3d& origin, const Vec3d& direction) {
   return crossings(s, origin, direction);
 }
-// The interval that `crossings` gives, without the faces and so without branches that are hard to foretell.
 Intervald stay(const scene::Box& b, const Vec3d& origin, const Vec3d& direction) {
-  Intervald inside{-infinity, infinity};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (direction[axis] == 0) {
-      if (origin[axis] < b.min[axis] || origin[axis] >= b.max[axis]) return {};
-      continue;
-    }
-    const double t0 = (b.min[axis] - origin[axis]) / direction[axis],
-                 t1 = (b.max[axis] - origin[axis]) / direction[axis];
-    inside.lo = std::max(inside.lo, std::min(t0, t1));
-    inside.hi = std::min(inside.hi, std::max(t0, t1));
-  }
-  return inside;
+  return crossings(b, origin, direction);
 }
 Intervald stay(const scene::Plane&, const Vec3d&, const Vec3d&) { return {}; }
 Intervald stay(const scene::Quad&, const Vec3d&, const Vec3d&) { return {}; }
