@@ -84,9 +84,8 @@ void IntervalMachine::run(const Program& program, const BoxInputs& inputs, std::
   boxes_run_ += boxes;
   const std::size_t vector = simd_lanes();
   const auto pad = [&](std::size_t n) { return (n + vector - 1) / vector * vector; };
-  // One vector more, so that rows are not all at the same place of a page (prepared.h).
   const std::size_t pitch =
-      (pad(std::min(boxes, max_boxes)) + widest_vector - 1) / widest_vector * widest_vector + widest_vector;
+      (pad(std::min(boxes, max_boxes)) + widest_vector - 1) / widest_vector * widest_vector;
   const std::size_t first_row = program.first_row();
   memory_->reserve(3 * (first_row * widest_vector + (program.inputs.size() + program.row_count) * pitch),
                    program.operand_count());
@@ -124,12 +123,7 @@ void IntervalMachine::run(const Program& program, const BoxInputs& inputs, std::
     for (std::size_t k = 0; k < program.outputs.size(); ++k) {
       const BoundView view = operands[program.outputs[k]];
       ValueBounds* const out = outputs.data() + k * boxes + begin;
-      if (view.lane_mask == 0) {
-        std::fill_n(out, used, read(view, 0));
-        continue;
-      }
-      const float *const lo = view.data, *const hi = lo + view.pitch, *const nan = hi + view.pitch;
-      for (std::size_t i = 0; i < used; ++i) out[i] = {lo[i], hi[i], nan[i] > 0};
+      for (std::size_t i = 0; i < used; ++i) out[i] = read(view, i);
     }
   }
 }

@@ -33,11 +33,10 @@ TYNDALL_VM_INLINE void bound_over_boxes(const Instruction& instruction, const Bo
                                         std::index_sequence<k...>) {
   const FloatTag d;
   const Options options{instruction.count, instruction.immediate, planes};
-  // Copies: stores might change what is behind `operands`, as far as the compiler knows.
-  const BoundView out = operands[instruction.destination];
-  const BoundView in[] = {operands[instruction.operands[k]]...};
+  const BoundView& out = operands[instruction.destination];
   for (std::size_t i = 0; i < boxes; i += hn::Lanes(d)) {
-    const Bound<Floats> result = BoundKernel<op>::run(options, load_bound(in[k], i)...);
+    const Bound<Floats> result =
+        BoundKernel<op>::run(options, load_bound(operands[instruction.operands[k]], i)...);
     hn::Store(result.lo.raw, d, out.data + i);
     hn::Store(result.hi.raw, d, out.data + out.pitch + i);
     hn::Store(as_boolean<Floats>(result.nan).raw, d, out.data + 2 * out.pitch + i);
