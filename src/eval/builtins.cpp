@@ -20,16 +20,38 @@ Value CallSite::as(Type type, std::size_t i, bool& ok, bool widen) {
   return value;
 }
 
-// Options with a time argument come in two forms, so the time may be left out though it has no default.
-static bool is_required(const vm::Builtin& row, std::size_t i) {
-  const bool is_field = row.shape == vm::Shape::field || row.shape == vm::Shape::vector_field;
-  return row.parameters[i].default_value.empty() && !(is_field && i > 0);
+// Options may be left out, the time of a field too, which has no default.
+static bool is_required(const vm::BuiltinParameter& parameter) {
+  return parameter.default_value.empty() && !parameter.named;
 }
 
 static std::string signature(const vm::Builtin& row) {
-  std::vector<std::string_view> names;
-  for (const vm::BuiltinParameter& parameter : row.parameters) names.push_back(parameter.name);
+  std::vector<std::string> names;
+  for (const vm::BuiltinParameter& parameter : row.parameters)
+    names.push_back(fmt::format("{}{}", parameter.name, parameter.named ? ": …" : ""));
   return fmt::format("it is written {}({})", row.name, fmt::join(names, ", "));
+}
+
+// An argument as the way out repeats it: a number or a name as they are, … for all that is longer.
+static std::string in_short(const Evaluator& ev, const Expr& written) {
+  if (const auto* number = std::get_if<NumberExpr>(&written.node); number && number->unit == Unit::none)
+    return fmt::format("{}", number->value);
+  const auto* name = std::get_if<NameExpr>(&written.node);
+  return name ? std::string(ev.text(name->symbol)) : "…";
+}
+
+void report_option_without_name(Evaluator& ev, const vm::Builtin& row, const SyntaxTree& tree,
+                                ExprId written) {
+  const std::string value = in_short(ev, tree[written]);
+  const auto* name = std::get_if<NameExpr>(&tree[written].node);
+  const bool is_time = name && ev.names().special(name->symbol) == Special::time;
+  std::vector<std::string> calls;
+  for (const bool time : {false, true})  // a bare number is hardly ever the time: it stands last
+    for (const vm::BuiltinParameter& option : row.parameters)
+      if (option.named && (option.name == "time") == time && (time || !is_time))
+        calls.push_back(fmt::format("{}({}, {}: {})", row.name, row.parameters[0].name, option.name, value));
+  ev.error(tree[written].span, fmt::format("an option of '{}' is given by its name", row.name),
+           fmt::format("write {}", fmt::join(calls, " or ")));
 }
 
 Value call_builtin(Evaluator& ev, const BuiltinEntry& entry, const SyntaxTree& tree, const CallExpr& call,
@@ -56,6 +78,11 @@ Value call_builtin(Evaluator& ev, const BuiltinEntry& entry, const SyntaxTree& t
       }
     } else if (position++ >= entry.parameters.size()) {
       return ev.error(place, fmt::format("too many arguments for '{}'", row.name), signature(row));
+    } else if (row.parameters[index].named) {
+      report_option_without_name(ev, row, tree, argument.value);
+      ev.check_names(tree, argument.value, scope);
+      failed = true;
+      break;
     }
     if (site.given[index]) {
       ev.error(place, fmt::format("'{}' is given twice", row.parameters[index].name));
@@ -68,7 +95,7 @@ Value call_builtin(Evaluator& ev, const BuiltinEntry& entry, const SyntaxTree& t
   }
   if (failed) return {};
   for (std::size_t i = 0; i < entry.parameters.size(); ++i)
-    if (!site.given[i] && is_required(row, i))
+    if (!site.given[i] && is_required(row.parameters[i]))
       return ev.error(span, fmt::format("'{}' wants '{}'", row.name, row.parameters[i].name), signature(row));
   return ev.finite(entry.bound(site), span);
 }

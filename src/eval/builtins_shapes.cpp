@@ -76,6 +76,25 @@ std::optional<Field> read_field(CallSite& site) {
   return field;
 }
 
+// A number as it is written, with its sign.
+bool is_literal(const syntax::SyntaxTree& tree, syntax::ExprId id) {
+  const auto* sign = std::get_if<syntax::UnaryExpr>(&tree[id].node);
+  return std::holds_alternative<syntax::NumberExpr>(tree[sign ? sign->operand : id].node);
+}
+
+// sin(30): as for rotate_y(30), nothing says whether degrees are meant. What is computed, sin(2 * pi * x), is
+// in radians.
+Value bare_angle(CallSite& site) {
+  const Value& number = site.arguments[0];
+  const bool bare = number.unit == syntax::Unit::none;
+  return site.ev.error(
+      site.spans[0],
+      fmt::format("{} wants an angle, found {}", site.what(0),
+                  bare ? "a number" : describe_unit(number.unit)),
+      bare ? fmt::format("give the angle a unit: {0}({1}deg) or {0}({1}rad)", site.name(), text_of(number))
+           : "an angle is written 30deg or 0.5rad");
+}
+
 Op next(Op op, int steps) { return static_cast<Op>(static_cast<int>(op) + steps); }
 
 }  // namespace
@@ -121,8 +140,10 @@ Value call_componentwise(CallSite& site) {
 }
 
 Value call_angle_to_number(CallSite& site) {
-  if (site.arguments[0].type != Type::angle && site.arguments[0].type != Type::number)
+  const Type found = site.arguments[0].type;
+  if (found != Type::angle && found != Type::number)
     return wrong_argument(site, 0, "an angle or a number in radians");
+  if (found == Type::number && is_literal(site.tree, site.written()[0].value)) return bare_angle(site);
   return Value::of(Type::number,
                    {site.ev.emit(site.entry.row->op, {site.arguments[0].scalars[0]}, site.span)});
 }

@@ -35,6 +35,10 @@ std::vector<std::string_view> parameter_names(const Evaluator& evaluator,
 void report_unknown_parameter(Evaluator& evaluator, std::string_view callee, const syntax::Name& argument,
                               const std::vector<std::string_view>& parameters, Span definition);
 
+// An argument that stands where only named options may.
+void report_option_without_name(Evaluator& evaluator, const vm::Builtin& row, const syntax::SyntaxTree& tree,
+                                syntax::ExprId written);
+
 Value evaluate_call(Evaluator& evaluator, const syntax::SyntaxTree& tree, const syntax::CallExpr& call,
                     Span span, const std::shared_ptr<Scope>& scope);
 // Calls a built-in of any shape.

@@ -248,14 +248,15 @@ class NameCheck {
     if (!callee || std::find(locals.begin(), locals.end(), callee->symbol) != locals.end()) return;
     std::vector<std::string_view> names;
     Span definition;
+    const BuiltinEntry* builtin = nullptr;
     if (const Binding* binding = scope_->find(callee->symbol)) {
       const std::optional<Declared> declared = parameters_of(binding->value);
       if (!declared) return;
       const auto parameters = declared->tree->list_of_parameters(declared->parameters);
       names = parameter_names(ev_, parameters);
       if (!parameters.empty()) definition = parameters[0].name.span;
-    } else if (const BuiltinEntry* entry = ev_.names().builtin(callee->symbol)) {
-      for (const vm::BuiltinParameter& parameter : entry->row->parameters) names.push_back(parameter.name);
+    } else if ((builtin = ev_.names().builtin(callee->symbol)) != nullptr) {
+      for (const vm::BuiltinParameter& parameter : builtin->row->parameters) names.push_back(parameter.name);
     } else {
       return;
     }
@@ -263,9 +264,19 @@ class NameCheck {
       if (argument.name.symbol.valid() &&
           std::find(names.begin(), names.end(), ev_.text(argument.name.symbol)) == names.end())
         report_unknown_parameter(ev_, ev_.text(callee->symbol), argument.name, names, definition);
+    if (builtin && !builtin->free) options_have_names(tree, call, *builtin->row);
   }
 
  private:
+  void options_have_names(const SyntaxTree& tree, const CallExpr& call, const vm::Builtin& row) const {
+    std::size_t position = 0;
+    for (const Argument& argument : tree.list_of_arguments(call.arguments)) {
+      if (argument.name.symbol.valid()) return;
+      if (position >= row.parameters.size()) return;
+      if (row.parameters[position++].named) return report_option_without_name(ev_, row, tree, argument.value);
+    }
+  }
+
   bool body_has(Special special) const {
     return inputs_of == BodyKind::material || special == Special::p || special == Special::P;
   }

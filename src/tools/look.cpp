@@ -32,13 +32,44 @@ ExitStatus fail(const std::string& message) {
   return ExitStatus::problem;
 }
 
+// A volume of the scene, or of an object where it is first placed.
+struct PlacedVolume {
+  const scene::Volume* volume;
+  Transform world_from_object;
+};
+
+class Volumes {
+ public:
+  explicit Volumes(const scene::Scene& scene) : scene_(scene), seen_(scene.prototypes.size(), false) {
+    add(scene.volumes, scene.instances, {});
+  }
+  std::vector<PlacedVolume> all;
+
+ private:
+  void add(const std::vector<scene::Volume>& volumes, const std::vector<scene::Instance>& instances,
+           const Transform& world_from_object) {
+    for (const scene::Volume& volume : volumes) all.push_back({&volume, world_from_object});
+    for (const scene::Instance& instance : instances) {
+      if (seen_[instance.prototype.index]) continue;
+      seen_[instance.prototype.index] = true;
+      const scene::Prototype& things = scene_.prototypes[instance.prototype.index];
+      add(things.volumes, things.instances, world_from_object * instance.world_from_object);
+    }
+  }
+
+  const scene::Scene& scene_;
+  std::vector<bool> seen_;
+};
+
 // The box around a volume in its medium's space; nothing for one without bounds.
-std::optional<MediumPlace> place_of(const compile::CompiledScene& world, const scene::Volume& volume) {
+std::optional<MediumPlace> place_of(const compile::CompiledScene& world, const PlacedVolume& placed) {
+  const scene::Volume& volume = *placed.volume;
   const std::optional<compile::Bounds> box = world.geometry->bounds_of(volume.shape);
-  const std::optional<Transform> medium_from_world = volume.world_from_medium.inverse();
-  if (!box || !medium_from_world) return std::nullopt;
-  const Transform medium_from_shape = *medium_from_world * volume.world_from_shape;
-  MediumPlace place{&world.scene.media[volume.medium.index], {}, volume.world_from_medium};
+  const std::optional<Transform> medium_from_object = volume.world_from_medium.inverse();
+  if (!box || !medium_from_object) return std::nullopt;
+  const Transform medium_from_shape = *medium_from_object * volume.world_from_shape;
+  MediumPlace place{
+      &world.scene.media[volume.medium.index], {}, placed.world_from_object * volume.world_from_medium};
   for (int corner = 0; corner < 8; ++corner) {
     Vec3d p;
     for (std::size_t k = 0; k < 3; ++k) p[k] = corner >> k & 1 ? box->hi[k] : box->lo[k];
@@ -69,18 +100,23 @@ ExitStatus show_slice(const LookArguments& arguments, LoadedScene& loaded) {
   const compile::CompiledScene world = compile::compile(std::move(loaded.scene));
   std::optional<MediumPlace> place;
   std::vector<std::string> names;
-  for (const scene::Volume& volume : world.scene.volumes) {
-    const scene::Medium& medium = world.scene.media[volume.medium.index];
+  for (const PlacedVolume& placed : Volumes(world.scene).all) {
+    const scene::Medium& medium = world.scene.media[placed.volume->medium.index];
     if (std::find(names.begin(), names.end(), medium.name) == names.end()) names.push_back(medium.name);
-    if (medium.name != arguments.medium || place) continue;
-    place = place_of(world, volume);
+    if ((!arguments.medium.empty() && medium.name != arguments.medium) || place) continue;
+    place = place_of(world, placed);
     if (!place) return fail(fmt::format("the volume of medium '{}' has no bounds to slice", medium.name));
   }
+  if (arguments.medium.empty() && names.size() > 1)
+    return misuse(
+        fmt::format("--slice wants one medium to cut: --medium {}", fmt::join(names, " or --medium ")));
+  if (!place && arguments.medium.empty()) return fail("there is no medium to slice: no volume in this scene");
   if (!place) return fail(none_named("volume with a medium", arguments.medium, names));
   const scene::Watched& watched = *place->medium->watched;
   const std::string& show = arguments.show.empty() ? "density" : arguments.show;
   if (!watched.program)
-    return fail(none_named(fmt::format("value of medium '{}' named", arguments.medium), show, watched.names));
+    return fail(
+        none_named(fmt::format("value of medium '{}' named", place->medium->name), show, watched.names));
   const auto axis = static_cast<std::size_t>(plane->axis);
   if (plane->at < place->box.lo[axis] || plane->at > place->box.hi[axis])
     return fail(fmt::format("--slice {} misses the volume: its {} goes from {:g} to {:g}", arguments.slice,
@@ -138,13 +174,14 @@ ExitStatus show_profile(const LookArguments& arguments, LoadedScene& loaded) {
   std::vector<ProgramLanes> programs;
   std::vector<std::string> names;
   std::vector<bool> seen(world.scene.media.size(), false);
-  for (const scene::Volume& volume : world.scene.volumes) {
-    const scene::Medium& medium = world.scene.media[volume.medium.index];
-    if (seen[volume.medium.index]) continue;
-    seen[volume.medium.index] = true;
+  for (const PlacedVolume& placed : Volumes(world.scene).all) {
+    const scene::MediumId id = placed.volume->medium;
+    const scene::Medium& medium = world.scene.media[id.index];
+    if (seen[id.index]) continue;
+    seen[id.index] = true;
     names.push_back(medium.name);
     if (!arguments.medium.empty() && medium.name != arguments.medium) continue;
-    const std::optional<MediumPlace> place = place_of(world, volume);
+    const std::optional<MediumPlace> place = place_of(world, placed);
     if (!place)
       return fail(fmt::format("the volume of medium '{}' has no bounds to take points in", medium.name));
     for (ProgramLanes& p : profile_of(*place, static_cast<float>(world.scene.time)))
@@ -158,8 +195,11 @@ ExitStatus show_profile(const LookArguments& arguments, LoadedScene& loaded) {
 }  // namespace
 
 void add_look_options(CLI::App& command, LookArguments& arguments) {
-  command.add_option("--medium", arguments.medium, "With --slice or --profile: the medium to look at")
-      ->option_text("NAME");
+  command
+      .add_option(
+          "--medium", arguments.medium,
+          "With --slice or --profile: the medium to look at, by its name, or an unnamed one by its line")
+      ->option_text("NAME|line:N");
   command.add_option("--slice", arguments.slice, "Picture a plane through a medium's volume, in its p")
       ->option_text("x|y|z=METRES");
   command
@@ -180,7 +220,6 @@ ExitStatus look(const SceneRequest& request, const LookArguments& arguments) {
     if (!parse_slice(arguments.slice))
       return misuse(fmt::format("--slice wants a coordinate of p in metres, for instance z=0, not '{}'",
                                 arguments.slice));
-    if (arguments.medium.empty()) return misuse("--slice wants the medium to cut: --medium NAME");
     if (arguments.output.empty()) return misuse("--slice wants the picture to write: -o slice.png");
     if (const std::string problem = image::check_writable(arguments.output); !problem.empty())
       return fail(problem);

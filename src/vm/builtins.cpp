@@ -79,9 +79,9 @@ void add_angles(std::vector<Builtin>& rows) {
   rows.insert(
       rows.end(),
       {
-          sine("sin", Op::sin, "The sine of an angle, or of a number in radians.", "sin(30deg)"),
-          sine("cos", Op::cos, "The cosine of an angle, or of a number in radians.", "cos(60deg)"),
-          sine("tan", Op::tan, "The tangent of an angle, or of a number in radians.", "tan(45deg)"),
+          sine("sin", Op::sin, "The sine of an angle, or of a computed number, in radians.", "sin(30deg)"),
+          sine("cos", Op::cos, "The cosine of an angle, or of a computed number, in radians.", "cos(60deg)"),
+          sine("tan", Op::tan, "The tangent of an angle, or of a computed number, in radians.", "tan(45deg)"),
           row("asin", number_to_angle, Op::asin, {{"x", "number", ""}}, "angle",
               "The angle in [-90deg, 90deg] whose sine is x, for x in [-1, 1].", "asin(0.5)"),
           row("acos", number_to_angle, Op::acos, {{"x", "number", ""}}, "angle",
@@ -130,7 +130,7 @@ void add_vectors(std::vector<Builtin>& rows) {
           other("keys",
                 {{"x", "number", ""},
                  {"points", "lists [x, value], in order", ""},
-                 {"ease", "linear|smooth|hold", "linear"}},
+                 {"ease", "linear|smooth|hold", "linear", true}},
                 "as the values",
                 "Interpolates between the given points: numbers, angles, pairs, vecs, colours or transforms.",
                 "keys(0.5, [0, 10], [1, 20])"),
@@ -138,9 +138,12 @@ void add_vectors(std::vector<Builtin>& rows) {
 }
 
 void add_fields(std::vector<Builtin>& rows) {
-  const Parameters one = {{"p", "vec", ""}, {"time", "number", ""}, {"seed", "number", "0"}};
-  const Parameters many = {
-      {"p", "vec", ""}, {"time", "number", ""}, {"octaves", "number", "5"}, {"seed", "number", "0"}};
+  constexpr bool named = true;
+  const Parameters one = {{"p", "vec", ""}, {"time", "number", "", named}, {"seed", "number", "0", named}};
+  const Parameters many = {{"p", "vec", ""},
+                           {"time", "number", "", named},
+                           {"octaves", "number", "5", named},
+                           {"seed", "number", "0", named}};
   rows.insert(
       rows.end(),
       {

@@ -20,7 +20,7 @@ enum class Shape : std::uint8_t {
   angle_to_number,  // sin cos tan: of an angle or a number in radians
   number_to_angle,  // asin acos atan atan2: an angle
   length,           // of a pair or vec: length2/length3
-  field,            // a point, optionally a time, then named options `octaves` and `seed`: a number.
+  field,            // a point, then options by name: `time`, `octaves`, `seed`. A number.
                     // op is the 3-operand form, the next op in the list the one with time
   vector_field,     // curl: as field, a vec; op is the first of curl3_x..z, curl4 follow
   custom,  // the evaluator knows it by name (dot cross normalize reflect distance rotate_x … keys random
@@ -31,6 +31,7 @@ struct BuiltinParameter {
   std::string_view name;
   std::string_view type;           // as the manual writes it: "number", "vec", "number|vec", "angle"
   std::string_view default_value;  // as written in a scene; empty: required
+  bool named = false;              // an option that a call gives by its name, never by its place
 };
 
 struct Builtin {

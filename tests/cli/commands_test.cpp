@@ -66,7 +66,7 @@ TEST_F(Commands, InspectPrintsEveryStage) {
 TEST_F(Commands, InspectTellsWhatIsProvenOfEachMedium) {
   const std::string scene = file("a.tyn", R"(camera perspective { from: (0, 0, 4)  to: (0, 0, 0)  fov: 40deg }
 volume { in: box { min: (-1, -1, -1)  max: (1, 1, 1) }
-         medium: { density = 9 * max(0, 0.5 - length(p) + 0.1 * noise(p * 3, time))  albedo = 0.9 } }
+         medium: { density = 9 * max(0, 0.5 - length(p) + 0.1 * noise(p * 3, time: time))  albedo = 0.9 } }
 volume { in: sphere {}  medium: { density = 2  albedo = 0.5 } }
 light environment { radiance: 1 }
 )");

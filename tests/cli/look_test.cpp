@@ -85,12 +85,52 @@ TEST_F(Look, SaysWhatIsThereWhenANameIsWrong) {
   EXPECT_EQ(outside.status, 1);
   EXPECT_NE(outside.err.find("its z goes from -2 to 2"), std::string::npos) << outside.err;
   for (const std::vector<std::string>& misuse : {std::vector<std::string>{"--medium", "haze"},
-                                                 {"--slice", "z=0", "-o", path("a.png")},
                                                  {"--medium", "haze", "--slice", "w=0", "-o", path("a.png")},
                                                  {"--medium", "haze", "--slice", "z=1x", "-o", path("a.png")},
                                                  {"--medium", "haze", "--slice", "z=0"},
                                                  {"--profile", "--slice", "z=0"}})
     EXPECT_EQ(inspect(misuse).status, 2) << misuse[0] << misuse[1];
+}
+
+// A medium without a name is called by its line, with its column where that is taken; the only one needs
+// none.
+TEST_F(Look, UnnamedMediaAreCalledByTheirLines) {
+  const std::string head = "camera perspective { from: (0, 0, 9) to: (0, 0, 0) }\n";
+  const auto volume = [](const std::string& medium) {
+    return "volume { in: sphere {} medium: " + medium + " } ";
+  };
+  const auto slice = [&](const std::string& text, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"inspect", file("a.tyn", text), "--slice", "z=0", "-o", path("a.exr")});
+    return tyndall(more);
+  };
+  const Outcome only = slice(head + volume("{ density = 2 albedo = 1 }"));
+  EXPECT_EQ(only.status, 0) << only.err;
+  EXPECT_NE(only.out.find("density of medium line:2 at z = 0"), std::string::npos) << only.out;
+
+  const std::string three = head + volume("{ density = 2 albedo = 1 }") +
+                            volume("{ density = 5 albedo = 1 }") + "\n" +
+                            volume("{ density = 7 albedo = 1 }");
+  const Outcome which = slice(three);
+  EXPECT_EQ(which.status, 2);
+  EXPECT_NE(which.err.find("--medium line:2 or --medium line:2:92 or --medium line:3"), std::string::npos)
+      << which.err;
+  for (const auto& [name, density] : {std::pair{"line:2", "2"}, {"line:2:92", "5"}, {"line:3", "7"}}) {
+    const Outcome one = slice(three, {"--medium", name});
+    EXPECT_EQ(one.status, 0) << one.err;
+    EXPECT_NE(one.out.find(std::string("max ") + density), std::string::npos) << one.out;
+  }
+}
+
+TEST_F(Look, MediaOfPlacedObjectsAreCutWhereTheyStand) {
+  const std::string scene =
+      file("a.tyn",
+           "camera perspective { from: (0, 0, 9) to: (0, 0, 0) }\n"
+           "object puff { volume { in: sphere {} medium: { density = P.x albedo = 1 } } }\n"
+           "object two { place puff { transform: translate((3, 0, 0)) } }\n"
+           "place two { transform: translate((4, 0, 0)) }\n");
+  const Outcome outcome = tyndall({"inspect", scene, "--slice", "z=0", "-o", path("a.exr")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("mean 7\n"), std::string::npos) << outcome.out;
 }
 
 TEST_F(Look, ProfilesNameTheDearestLine) {

@@ -115,7 +115,11 @@ std::string builtins() {
       const char* before = "(";
       for (const vm::BuiltinParameter& parameter : row.parameters) {
         call += before + std::string(parameter.name);
-        if (!parameter.default_value.empty()) call += fmt::format(" = {}", parameter.default_value);
+        const bool optional = !parameter.default_value.empty();
+        if (parameter.named)
+          call += fmt::format(": {}", optional ? parameter.default_value : "…");
+        else if (optional)
+          call += fmt::format(" = {}", parameter.default_value);
         before = ", ";
       }
       call += row.parameters.empty() ? "()" : ")";
