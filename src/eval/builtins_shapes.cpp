@@ -100,7 +100,7 @@ Value bare_angle(CallSite& site) {
 Value call_componentwise(CallSite& site) {
   const vm::Builtin& row = *site.entry.row;
   const std::size_t n = row.parameters.size();
-  const Op op = row.op;
+  const Op op = row.op();
   // The last argument of mix is a weight: a number also between angles and phase functions.
   const std::size_t mixed = op == Op::mix ? n - 1 : n;
   if (op == Op::mix && site.arguments[0].type == Type::phase && site.arguments[1].type == Type::phase)
