@@ -9,6 +9,7 @@
 
 #include "base/check.h"
 #include "base/numerics.h"
+#include "base/parallel.h"
 
 namespace tyndall::compile {
 
@@ -19,10 +20,11 @@ namespace {
 // by R·2^-20 lose none.
 constexpr double float_ray_margin = 0x1p-20;
 
-// One for all trees: a device has threads and memory of its own.
+// One for all trees: a device has threads and memory of its own. Its pool ends the program when it cannot
+// have its threads, so that it is asked before whether it can.
 RTCDevice device() {
   struct Device {
-    RTCDevice handle = rtcNewDevice(nullptr);
+    RTCDevice handle = rtcNewDevice(can_have_threads(hardware_threads()) ? nullptr : "threads=1");
     ~Device() { rtcReleaseDevice(handle); }
   };
   static const Device one;

@@ -18,8 +18,8 @@ enum class Format : std::uint8_t { exr, png };
 
 // The module's functions.
 struct Codec {
-  // The file's bytes; gives an error message, or an empty string. PNG samples are `display`, EXR those of the
-  // image.
+  // The file's bytes; gives an error message, or an empty string. PNG samples are `display`, of the whole
+  // picture, EXR those of the image.
   std::string (*encode)(const Image& image, const std::vector<std::uint8_t>& display,
                         const Metadata& metadata, Format format, std::vector<unsigned char>& bytes);
   // The picture of an existing file, its samples as stored (8 bits as 0 to 1).

@@ -67,14 +67,26 @@ void make_linear(Image& image) {
     if (image.channels[i % image.channels.size()] != "A") image.pixels[i] = linear_from_srgb(image.pixels[i]);
 }
 
+std::uint8_t display_byte(float exposed) {
+  if (std::isnan(exposed)) return 0;
+  return static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(std::clamp(exposed, 0.0f, 1.0f))));
+}
+
+// Of the whole picture that the image is (a part of).
 std::vector<std::uint8_t> display_bytes(const Image& image, double exposure) {
   const auto scale = static_cast<float>(std::exp2(exposure));
-  std::vector<std::uint8_t> bytes(image.pixels.size());
-  std::transform(image.pixels.begin(), image.pixels.end(), bytes.begin(), [scale](float value) {
-    const float exposed = value * scale;
-    if (std::isnan(exposed)) return std::uint8_t{0};
-    return static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(std::clamp(exposed, 0.0f, 1.0f))));
-  });
+  const Image::Place place = whole_of(image);
+  const std::size_t channels = image.channels.size(),
+                    row = static_cast<std::size_t>(place.whole_width) * channels,
+                    part = static_cast<std::size_t>(image.width) * channels;
+  std::vector<std::uint8_t> bytes(row * static_cast<std::size_t>(place.whole_height));
+  for (int y = 0; y < image.height; ++y) {
+    const auto from = image.pixels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * part);
+    const auto to = bytes.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y + place.y) * row +
+                                                                static_cast<std::size_t>(place.x) * channels);
+    std::transform(from, from + static_cast<std::ptrdiff_t>(part), to,
+                   [scale](float value) { return display_byte(value * scale); });
+  }
   return bytes;
 }
 
@@ -97,7 +109,7 @@ std::string write(const std::string& path, const Image& image, const Metadata& m
 
 std::string check_writable(const std::string& path) {
   if (!format_of(path)) return unknown_format(path);
-  return check_file_creatable(path);
+  return check_file_writable(path);
 }
 
 ReadResult read(const std::string& path) {

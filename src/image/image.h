@@ -14,6 +14,12 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::string> channels;  // "R", "G", "B", …
   std::vector<float> pixels;          // width * height * channels.size()
+  // When these pixels are a part of a larger picture that is black elsewhere: where their top left one is in
+  // it, and its size; of no width otherwise.
+  struct Place {
+    int x = 0, y = 0, whole_width = 0, whole_height = 0;
+  };
+  Place place{};
 
   float& at(int x, int y, std::size_t channel) { return pixels[index(x, y, channel)]; }
   float at(int x, int y, std::size_t channel) const { return pixels[index(x, y, channel)]; }
@@ -24,12 +30,18 @@ struct Image {
   }
 };
 
+// An image's place in the whole picture; of one that is no part: all of it.
+inline Image::Place whole_of(const Image& image) {
+  return image.place.whole_width > 0 ? image.place : Image::Place{0, 0, image.width, image.height};
+}
+
 // Text attributes of an EXR or PNG, in order: program version, scene hash, frame, samples, seed, settings.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 // Writes `path` whole or not at all (beside, then renamed). EXR: linear float, values as they are; PNG: 8-bit
-// sRGB of the values times 2^exposure, clamped, with 0 for NaN. The format follows the extension. Returns an
-// error message fit for the user, or an empty string.
+// sRGB of the values times 2^exposure, clamped, with 0 for NaN. A part of a larger picture is written as that
+// whole picture: in an EXR as its data window, in a PNG with the black around it. The format follows the
+// extension. Returns an error message fit for the user, or an empty string.
 std::string write(const std::string& path, const Image& image, const Metadata& metadata, double exposure = 0);
 
 // A message when `write` to that path would surely fail (unknown extension, no such directory, not writable):

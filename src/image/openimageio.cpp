@@ -2,16 +2,49 @@
 // memory, so that files.h can write them whole.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "image/codec.h"
 
 namespace tyndall::image {
 namespace {
 
+// While it lives, what image libraries print on standard error is not seen: what is worth telling they
+// return.
+class Silence {
+ public:
+  Silence() {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    said_to_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (said_to_ >= 0) ::dup2(nowhere, STDERR_FILENO);
+    ::close(nowhere);
+  }
+  ~Silence() {
+    if (said_to_ < 0) return;
+    ::dup2(said_to_, STDERR_FILENO);
+    ::close(said_to_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  int said_to_ = -1;
+};
+
 OIIO::ImageSpec spec_of(const Image& image, const Metadata& metadata, Format format) {
-  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()),
-                       format == Format::exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+  const Image::Place place = whole_of(image);
+  const auto channels = static_cast<int>(image.channels.size());
+  OIIO::ImageSpec spec(place.whole_width, place.whole_height, channels, OIIO::TypeDesc::UINT8);
+  if (format == Format::exr) {
+    spec = OIIO::ImageSpec(image.width, image.height, channels, OIIO::TypeDesc::FLOAT);
+    spec.x = place.x;
+    spec.y = place.y;
+    spec.full_width = place.whole_width;
+    spec.full_height = place.whole_height;
+  }
   spec.channelnames = image.channels;
   for (const auto& [name, value] : metadata) spec.attribute(name, value);
   if (format == Format::exr) {
@@ -31,6 +64,7 @@ OIIO::ImageSpec spec_of(const Image& image, const Metadata& metadata, Format for
 
 std::string encode(const Image& image, const std::vector<std::uint8_t>& display, const Metadata& metadata,
                    Format format, std::vector<unsigned char>& bytes) {
+  const Silence silence;
   const auto output = OIIO::ImageOutput::create(format == Format::exr ? "exr" : "png");
   if (!output) return OIIO::geterror();
   OIIO::Filesystem::IOVecOutput memory(bytes);
@@ -51,6 +85,7 @@ Metadata texts_of(const OIIO::ImageSpec& spec) {
 }
 
 ReadResult decode_any(const std::string& path, std::size_t most_pixels, bool& encoded) {
+  const Silence silence;
   OIIO::ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);
   const auto input = OIIO::ImageInput::open(path, &wishes);
@@ -69,7 +104,25 @@ ReadResult decode_any(const std::string& path, std::size_t most_pixels, bool& en
   return {.image = std::move(image)};
 }
 
+// The display window of a picture whose data window these pixels are, black where they do not reach.
+Image whole_picture(Image part, const OIIO::ImageSpec& spec) {
+  if (spec.x == spec.full_x && spec.y == spec.full_y && spec.width == spec.full_width &&
+      spec.height == spec.full_height)
+    return part;
+  Image whole{spec.full_width, spec.full_height, part.channels, {}};
+  whole.pixels.resize(static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height) *
+                      whole.channels.size());
+  for (int y = 0; y < part.height; ++y)
+    for (int x = 0; x < part.width; ++x) {
+      const int to_x = x + spec.x - spec.full_x, to_y = y + spec.y - spec.full_y;
+      if (to_x < 0 || to_y < 0 || to_x >= whole.width || to_y >= whole.height) continue;
+      for (std::size_t c = 0; c < whole.channels.size(); ++c) whole.at(to_x, to_y, c) = part.at(x, y, c);
+    }
+  return whole;
+}
+
 ReadResult decode(const std::string& path) {
+  const Silence silence;
   const auto input = OIIO::ImageInput::open(path);
   if (!input) return {.error = OIIO::geterror()};
   const OIIO::ImageSpec& spec = input->spec();
@@ -77,7 +130,7 @@ ReadResult decode(const std::string& path) {
   image.pixels.resize(static_cast<std::size_t>(spec.image_pixels()) * image.channels.size());
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()))
     return {.error = input->geterror()};
-  return {.image = std::move(image), .metadata = texts_of(spec)};
+  return {.image = whole_picture(std::move(image), spec), .metadata = texts_of(spec)};
 }
 
 }  // namespace

@@ -48,13 +48,16 @@ class PathTracer {
         worker_(worker),
         radiance_(outputs.radiance),
         aovs_(outputs.aovs),
-        trace_(outputs.trace) {}
+        trace_(outputs.trace),
+        deadline_(outputs.deadline) {}
 
   // All paths go one ray on at a time: rays, one march of all, what each meets, one batch of shadow rays.
-  void run() {
+  // False when the deadline passed before the last of them ended.
+  bool run() {
     std::fill(radiance_.begin(), radiance_.end(), Rgb{});
     std::fill(aovs_.begin(), aovs_.end(), AovSample{});
     while (start_paths(), active_ > 0) {
+      if (deadline_ != nullptr && deadline_->passed()) return false;
       worker_.march_requests.clear();
       for (std::size_t i = 0; i < active_; ++i) trace_ray(slot(i));
       propagate(world_, settings_, std::span(worker_.slots).first(active_), worker_);
@@ -63,6 +66,7 @@ class PathTracer {
       trace_shadows();
       remove_ended();
     }
+    return true;
   }
 
  private:
@@ -387,6 +391,7 @@ class PathTracer {
   std::span<Rgb> radiance_;
   std::span<AovSample> aovs_;
   std::string* trace_;
+  const Deadline* deadline_;
   std::size_t active_ = 0, started_ = 0;  // slots in use: the first; samples begun: the first
   std::vector<bool> ended_;               // of the slots that advanced in this round
   PathSlot* path_ = nullptr;              // the one at work
@@ -397,10 +402,10 @@ class PathTracer {
 
 }  // namespace
 
-void trace_paths(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
+bool trace_paths(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
                  std::span<const CameraSample> samples, Worker& worker, const PathOutputs& outputs) {
   CHECK_EQ(samples.size(), outputs.radiance.size());
-  PathTracer(world, camera, settings, samples, worker, outputs).run();
+  return PathTracer(world, camera, settings, samples, worker, outputs).run();
 }
 
 }  // namespace tyndall::render

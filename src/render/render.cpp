@@ -10,6 +10,7 @@
 #include "base/check.h"
 #include "base/parallel.h"
 #include "render/adaptive.h"
+#include "render/deadline.h"
 #include "render/path.h"
 #include "render/worker.h"
 
@@ -18,11 +19,11 @@ namespace tyndall::render {
 namespace {
 
 using compile::CompiledScene;
-using Clock = std::chrono::steady_clock;
+using Clock = Deadline::Clock;
 
 constexpr int tile_size = 16;
 
-std::vector<Tile> tiles_of(const RenderOptions::Crop& crop) {
+std::vector<Tile> tiles_of(const PixelWindow& crop) {
   std::vector<Tile> tiles;
   for (int y = crop.y0; y < crop.y1; y += tile_size)
     for (int x = crop.x0; x < crop.x1; x += tile_size)
@@ -91,19 +92,22 @@ class Render {
         progress_(progress),
         settings_(path_settings(world, options)),
         camera_(world),
-        film_(world.scene.settings.width, world.scene.settings.height, settings_.groups, options.aovs),
-        tiles_(tiles_of(options.crop.value_or(RenderOptions::Crop{0, 0, film_.width(), film_.height()}))),
+        film_(world.scene.settings.width, world.scene.settings.height, settings_.groups, options.aovs,
+              options.crop),
+        tiles_(tiles_of(film_.window())),
         most_samples_(most_samples(world, options)) {
-    for (int i = 0; i < worker_count(options.threads); ++i) {
+    deadline_.stop = options.stop;
+    // A limit that the clock cannot hold is none.
+    constexpr double longest = 1e9;
+    if (options.time_limit && *options.time_limit < longest)
+      deadline_.end = start_ + std::chrono::duration_cast<Clock::duration>(
+                                   std::chrono::duration<double>(*options.time_limit));
+    for (int i = 0; i < loop_workers(tiles_.size(), options.threads); ++i) {
       workers_.push_back(std::make_unique<Worker>());
       workers_.back()->skips_empty = options.skip_empty;
       workers_.back()->machine.observe(options.shader_observer);
     }
     for (const Tile& tile : tiles_) {
-      CHECK_LE(0, tile.x0);
-      CHECK_LE(0, tile.y0);
-      CHECK_LE(tile.x1, film_.width());
-      CHECK_LE(tile.y1, film_.height());
       pixels_ += static_cast<std::uint64_t>(tile.pixels());
     }
   }
@@ -113,11 +117,12 @@ class Render {
       run_adaptive();
     else
       run_uniform();
-    return {std::move(film_), statistics()};
+    Statistics total = statistics();  // which looks at the film
+    return {std::move(film_), std::move(total)};
   }
 
  private:
-  bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
+  bool stopped() const { return deadline_.stopped(); }
 
   // Passes over the whole picture, the same samples for every pixel.
   void run_uniform() {
@@ -129,6 +134,7 @@ class Render {
       render_pass([&](std::size_t i, std::vector<CameraSample>& samples) {
         add_samples(tiles_[i], samples, length, [&](int k) { return first + static_cast<std::uint64_t>(k); });
       });
+      if (uneven_) break;
       done += length;
       if (done < most_samples_) end_pass();
     }
@@ -159,7 +165,7 @@ class Render {
                       [&](int k) { return sample_of_half(half, run.first + k); });
         }
       });
-      if (stopped()) break;
+      if (uneven_) break;
       plan.finish_pass(film_, tiles_);
       estimated_error_ = plan.estimated_error();
       fraction_scale_ = plan.fraction_done() / static_cast<double>(samples_done_.load());
@@ -178,26 +184,37 @@ class Render {
   // Renders what list(tile, samples) asks for.
   template <class List>
   void render_pass(List&& list) {
-    parallel_for(tiles_.size(), options_.threads, [&](std::size_t i, int w) {
-      if (stopped()) return;
+    const int threads = parallel_for(tiles_.size(), options_.threads, [&](std::size_t i, int w) {
       Worker& worker = *workers_[w];
       worker.tile_samples.clear();
       list(i, worker.tile_samples);
       if (worker.tile_samples.empty()) return;
-      render_samples(worker);
-      report(samples_done_.fetch_add(worker.tile_samples.size()) + worker.tile_samples.size());
+      if (deadline_.passed() || !render_samples(worker))
+        uneven_ = true;
+      else
+        report(samples_done_.fetch_add(worker.tile_samples.size()) + worker.tile_samples.size());
     });
+    threads_ = std::max(threads_, threads);
+    threads_missed_ = std::max(threads_missed_, loop_workers(tiles_.size(), options_.threads) - threads);
+    out_of_time_ |= uneven_ && !stopped();
   }
 
-  void render_samples(Worker& worker) {
+  // False when the deadline passed before all paths ended: none of them is counted.
+  bool render_samples(Worker& worker) {
     const std::vector<CameraSample>& samples = worker.tile_samples;
+    const std::uint64_t samples_before = worker.statistics.samples;
     worker.tile_radiance.resize(samples.size());
     worker.tile_aovs.resize(options_.aovs.recorded() ? samples.size() : 0);
-    trace_paths(world_, camera_, settings_, samples, worker, {worker.tile_radiance, worker.tile_aovs});
+    if (!trace_paths(world_, camera_, settings_, samples, worker,
+                     {worker.tile_radiance, worker.tile_aovs, nullptr, &deadline_})) {
+      worker.statistics.samples = samples_before;
+      return false;
+    }
     for (std::size_t i = 0; i < samples.size(); ++i) {
       add(samples[i], worker.tile_radiance[i], worker);
       if (!worker.tile_aovs.empty()) film_.add(samples[i].x, samples[i].y, worker.tile_aovs[i]);
     }
+    return true;
   }
 
   void add(const CameraSample& s, const Rgb& radiance, Worker& worker) {
@@ -244,6 +261,10 @@ class Render {
     total.seconds = seconds();
     total.stopped = stopped();
     total.out_of_time = out_of_time_;
+    total.uneven = uneven_;
+    if (uneven_ || total.samples < pixels_) total.pixels_without_samples = film_.pixels_without_samples();
+    total.threads = threads_;
+    total.threads_missed = threads_missed_;
     total.estimated_error = estimated_error_;
     return total;
   }
@@ -262,8 +283,12 @@ class Render {
   double fraction_scale_ = 0;  // of the work, per sample
   double estimated_error_ = 0;
   bool out_of_time_ = false;
+  std::atomic<bool> uneven_{false};
+  int threads_ = 0, threads_missed_ = 0;  // most of a pass
   std::mutex report_mutex_;
-  Clock::time_point start_ = Clock::now(), last_report_ = start_;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point last_report_ = start_;
+  Deadline deadline_;
 };
 
 }  // namespace
@@ -280,7 +305,9 @@ Replay replay(const CompiledScene& world, const RenderOptions& options, int x, i
   const CameraSample camera_sample{x, y, sample};
   PathOutputs outputs{std::span(&out.radiance, 1)};
   outputs.trace = &out.trace;
-  trace_paths(world, camera, path_settings(world, options), std::span(&camera_sample, 1), worker, outputs);
+  const bool whole = trace_paths(world, camera, path_settings(world, options), std::span(&camera_sample, 1),
+                                 worker, outputs);
+  CHECK(whole);
   return out;
 }
 

@@ -44,17 +44,16 @@ struct RenderOptions {
   bool emission_sampling = true;  // media that emit are sampled as lights; false to measure what that saves
   bool sunward = true;            // rays are sent towards distant lights (sunward.h); the same
   // Half-open pixel rectangle and sample range; defaults: everything.
-  struct Crop {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  };
-  std::optional<Crop> crop;
+  std::optional<PixelWindow> crop;
   int first_sample = 0;
   std::optional<int> sample_count;  // default: the scene's
   AovSet aovs;                      // outputs beside the picture
   // Ends once the root of the picture's mean squared relative error is below this (adaptive.h), each block
   // with as many samples as it needs; sample_count is then the most that a pixel gets.
   std::optional<double> error;
-  std::optional<double> time_limit;         // [s]: ends, with whole passes, when it is over
+  // [s]: ends when it is over, with whole passes as far as can be told from those before. A block of pixels
+  // that is at work then is not counted, so that each has all samples of a pass or none.
+  std::optional<double> time_limit;
   const std::atomic<bool>* stop = nullptr;  // set to end early with what there is
 };
 
@@ -92,8 +91,12 @@ struct Statistics {
   // extinction alone, in turn; of every material. A program that another one equals has none of its own.
   std::vector<std::vector<std::uint64_t>> medium_lanes, material_lanes;
   double seconds = 0;
-  bool stopped = false;        // by RenderOptions::stop
-  bool out_of_time = false;    // ended by the time limit
+  bool stopped = false;      // by RenderOptions::stop
+  bool out_of_time = false;  // ended by the time limit
+  bool uneven = false;       // ended within a pass: some pixels have more samples than others
+  std::uint64_t pixels_without_samples = 0;
+  int threads = 0;             // that took part
+  int threads_missed = 0;      // that would have, had the system given them
   double estimated_error = 0;  // with RenderOptions::error: of the picture, in its measure
 };
 

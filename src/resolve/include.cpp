@@ -59,8 +59,11 @@ std::optional<fs::path> find_file(const Run& run, const std::string& including, 
   std::vector<fs::path> places = {fs::path(including).parent_path()};
   for (const std::string& directory : run.options.include_directories) places.emplace_back(directory);
   std::error_code failed;
-  for (const fs::path& place : places)
-    if (fs::exists(place / name, failed)) return place / name;
+  for (const fs::path& place : places) {
+    if (!fs::exists(place / name, failed)) continue;
+    if (run.options.files_read != nullptr) run.options.files_read->insert((place / name).string());
+    return place / name;
+  }
   return std::nullopt;
 }
 

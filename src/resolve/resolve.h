@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Options {
   std::vector<std::string> include_directories;
   shader::Options shader;
   bool may_only_define = false;  // a file of nothing but definitions, for other scenes, is good
+  std::set<std::string>* files_read = nullptr;      // gets the paths of includes and pictures
   long max_repetitions = resolve::max_repetitions;  // tests and fuzzers take fewer
 };
 

@@ -72,6 +72,12 @@ void run_animation(Run& run, const Site& site, const syntax::ThingItem& thing, c
     return run.diagnostics.error(header(thing), "'animation' depends on `time`, `frame` or an included file",
                                  "it decides what they are: use numbers, and the lets above it in this file");
   run.scene.animation = animation;
+  if (const std::optional<int>& frame = run.options.frame;
+      frame && (*frame < animation.first_frame || *frame > animation.last_frame))
+    run.diagnostics.warning(reader.place("frames"),
+                            fmt::format("--frame {} is outside of these frames, {} to {}", *frame,
+                                        animation.first_frame, animation.last_frame),
+                            "what moves is taken beyond them as it is written");
 }
 
 template <class Camera>

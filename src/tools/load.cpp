@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "resolve/resolve.h"
+#include "tools/numbers.h"
 #include "tools/stopwatch.h"
 
 namespace tyndall::tools {
@@ -46,8 +47,7 @@ void add_override(SceneRequest& request, const std::string& text) {
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneRequest& request) {
-  command.add_option("--frame", request.frame, "The frame to read (default: the first of `animation`)")
-      ->option_text("N");
+  add_whole(command, "--frame", request.frame, "The frame to read, in place of the first of `animation`");
   command
       .add_option_function<std::vector<std::string>>(
           "--set",
@@ -87,7 +87,8 @@ std::unique_ptr<LoadedScene> load(const SceneRequest& request, Stage last) {
                                  .overrides = request.overrides,
                                  .include_directories = request.include_directories,
                                  .shader = {.watch = request.watch},
-                                 .may_only_define = request.may_only_define};
+                                 .may_only_define = request.may_only_define,
+                                 .files_read = &loaded->files_read};
   loaded->scene =
       resolve::resolve(loaded->tree, loaded->sources, loaded->symbols, options, loaded->diagnostics);
   loaded->seconds.resolve = watch.lap();

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,7 +45,8 @@ struct LoadedScene {
   SourceId source;
   syntax::TokenList tokens;
   syntax::SyntaxTree tree;
-  scene::Scene scene;  // fit for use only when the diagnostics have no errors
+  std::set<std::string> files_read;  // includes and pictures
+  scene::Scene scene;                // fit for use only when the diagnostics have no errors
   struct Seconds {
     double read = 0, parse = 0, resolve = 0;
   } seconds;

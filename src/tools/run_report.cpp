@@ -70,6 +70,8 @@ image::Metadata metadata_of(const RenderArguments& arguments, const scene::Scene
   if (arguments.error) {
     settings += fmt::format(" error={}", *arguments.error);
     count = fmt::format("{} a pixel on average", mean_samples(scene, statistics));
+  } else if (statistics.uneven) {
+    count = fmt::format("{} a pixel on average", mean_samples(scene, statistics));
   } else if (arguments.time_limit) {
     count = fmt::format("0..{}", static_cast<std::int64_t>(mean_samples(scene, statistics)) - 1);
   }
@@ -99,6 +101,7 @@ nlohmann::json statistics_json(const scene::Scene& scene, const std::string& sce
       {"frame", scene.frame},
       {"resolution", {scene.settings.width, scene.settings.height}},
       {"interrupted", s.stopped},
+      {"threads", s.threads},
       {"seconds",
        {{"read", seconds.read},
         {"parse", seconds.parse},
@@ -127,6 +130,7 @@ nlohmann::json statistics_json(const scene::Scene& scene, const std::string& sce
   };
   if (s.estimated_error > 0) result["estimated_error"] = s.estimated_error;
   if (s.out_of_time) result["out_of_time"] = true;
+  if (s.pixels_without_samples > 0) result["pixels_without_samples"] = s.pixels_without_samples;
   if (s.first_bad_sample)
     result["first_bad_sample"] = {{"pixel", {s.first_bad_sample->x, s.first_bad_sample->y}},
                                   {"sample", s.first_bad_sample->sample}};
@@ -155,6 +159,15 @@ void report_run_problems(const RenderArguments& arguments, const render::Statist
            fmt::format("{} {} not finite, and counted as black", statistics.bad_samples,
                        statistics.bad_samples == 1 ? "sample was" : "samples were"),
            "the first again: " + replay_command(arguments, first->x, first->y, first->sample));
+  if (statistics.pixels_without_samples > 0)
+    diagnostics.warning(
+        {},
+        fmt::format("{} pixels have no samples and are black: the run ended in its first pass",
+                    statistics.pixels_without_samples),
+        "more time, or a smaller --resolution, reaches all of them");
+  if (statistics.threads_missed > 0)
+    diagnostics.warning({}, fmt::format("{} threads could not be had, and {} did the work",
+                                        statistics.threads_missed, statistics.threads));
   if (statistics.cut_majorants > 0)
     diagnostics.warning(
         {},

@@ -57,12 +57,19 @@ TEST_F(Format, LeavesFilesWithErrorsAlone) {
 
 TEST_F(Format, SaysWhenItCannotWrite) {
   const std::string scene = file("a.tyn", untidy);
-  file("a.tyn.part", "somebody else's");
+  fs::permissions(scene, fs::perms::owner_read);
   const Outcome outcome = tyndall({"format", scene});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find("cannot write"), std::string::npos) << outcome.err;
   EXPECT_EQ(read_file(scene), untidy);
-  EXPECT_EQ(read_file(path("a.tyn.part")), "somebody else's");
+  EXPECT_EQ(file_count(), 1u);
+}
+
+TEST_F(Format, ReplacesPlainFilesOnly) {
+  fs::create_symlink("/dev/null", path("null.tyn"));
+  const Outcome outcome = tyndall({"format", path("null.tyn")});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("it is no plain file"), std::string::npos) << outcome.err;
 }
 
 }  // namespace
