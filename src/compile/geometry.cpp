@@ -4,6 +4,7 @@
 
 #include "base/numerics.h"
 #include "base/overloaded.h"
+#include "compile/hit_error.h"
 #include "compile/strand_groups.h"
 
 namespace tyndall::compile {
@@ -49,7 +50,7 @@ Geometry::Geometry(const scene::Scene& scene, const Features& features, const Ve
       curves_(group_strands(scene, glows)),
       world_(parts(), features.normals),
       volumes_(volumes),
-      first_shape_(scene.shapes.data()) {
+      origin_(origin) {
   if (features.glass)
     for (CompiledMesh& mesh : meshes_) mesh.find_whether_closed();
   prototypes_.reserve(scene.prototypes.size());  // groups point to earlier ones
@@ -103,9 +104,9 @@ Bounds Geometry::volume_bounds(const CompiledVolume& v) const {
   });
 }
 
-std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) const {
+std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind, const HitOrder& after) const {
   if (world_.empty()) return std::nullopt;
-  const auto found = world_.closest_hit({ray.origin, ray.direction, ray.t_max, ray.time}, kind);
+  const auto found = world_.closest_hit({ray.origin, ray.direction, ray.t_max, ray.time, after}, kind);
   if (!found) return std::nullopt;
   SurfaceHit hit;
   hit.t = found->t;
@@ -120,13 +121,16 @@ std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) co
   hit.uv = found->uv;
   hit.normal_axes = found->normal_axes;
   hit.sheet = found->sheet;
+  hit.offset_before = hit.offset_behind = offset_along(hit.normal, hit.position, origin_, found->error);
+  hit.surface = found->number;
+  hit.part = found->part;
+  hit.priority = found->priority;
   if (found->light != no_index) {
     hit.light = found->light;
     return hit;
   }
   hit.material = found->material.index;
   hit.glow = found->glow;
-  if (found->surface) hit.shape = static_cast<std::uint32_t>(found->surface - first_shape_);
   return hit;
 }
 
@@ -154,7 +158,7 @@ void Geometry::volume_intervals(const Ray& ray, RayKind kind, std::vector<Volume
     return ray.t_max;
   };
   if (volume_tree_) {
-    volume_tree_->visit(ray.origin, ray.direction, ray.t_max, test);
+    volume_tree_->visit(ray.origin, ray.direction, 0, ray.t_max, test);
   } else {
     for (std::uint32_t i = 0; i < volumes_.size(); ++i) test(i);
   }

@@ -3,12 +3,12 @@
 namespace tyndall::compile {
 
 std::optional<ShapeHit> intersect(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin,
-                                  const Vec3d& direction, double t_max) {
+                                  const Vec3d& direction, double t_max, const After& after) {
   if (const auto* mesh = std::get_if<scene::Mesh>(&shape))
-    return parts.meshes[mesh->mesh.index].intersect(origin, direction, t_max);
+    return parts.meshes[mesh->mesh.index].intersect(origin, direction, t_max, after);
   if (const auto* curves = std::get_if<scene::Curves>(&shape))
-    return parts.curves[curves->strands.index].intersect(origin, direction, t_max);
-  return intersect(shape, origin, direction, t_max);
+    return parts.curves[curves->strands.index].intersect(origin, direction, t_max, after);
+  return intersect(shape, origin, direction, t_max, after);
 }
 
 bool blocks(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin, const Vec3d& direction,

@@ -18,7 +18,7 @@ struct ShapeParts {
 
 // The queries of shape_queries.h, for all shapes.
 std::optional<ShapeHit> intersect(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin,
-                                  const Vec3d& direction, double t_max);
+                                  const Vec3d& direction, double t_max, const After& after = {});
 // Whether anything is met in (0, t_max).
 bool blocks(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin, const Vec3d& direction,
             double t_max);

@@ -107,8 +107,9 @@ class PathTracer {
     path.current ^= 1;
     ++worker_.statistics.rays;
     const RayKind kind = s.origin.kind == PathOrigin::Kind::camera ? RayKind::camera : RayKind::scattered;
-    const auto hit = world_.features.see_through ? trace_through(world_, s.ray, kind, worker_, path.crossings)
-                                                 : world_.closest_hit(s.ray, kind);
+    const auto hit = world_.features.walks_surfaces()
+                         ? trace_through(world_, s.ray, kind, worker_, path.crossings)
+                         : world_.closest_hit(s.ray, kind);
     // An optional is copied whole even when it holds nothing.
     if (hit)
       path.hit = hit;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compile/solids.h"
 #include "render/worker.h"
 
 namespace tyndall::render {
@@ -76,21 +75,6 @@ class MaterialAt {
   Worker& worker_;
 };
 
-// What the body behind a boundary of glass stands in.
-struct Outside {
-  double ior = 1;
-  bool hides = false;  // it outranks the body: there is no boundary
-};
-Outside outside_of(const compile::CompiledScene& world, const compile::SurfaceHit& hit) {
-  if (!world.solids || hit.sheet || hit.shape == compile::no_index ||
-      !world.materials[hit.material].transmits)
-    return {};
-  const auto holder = world.solids->at(hit.position, hit.time, hit.shape);
-  if (!holder) return {};
-  const compile::SolidRank own{world.scene.shapes[hit.shape].priority, hit.shape};
-  return {holder->ior, own < holder->rank};
-}
-
 // The normal to shade with, on the side of the ray: bent towards it where it looks away, as smoothed ones do
 // at silhouettes.
 Vec3d facing(const Vec3d& shading, const Vec3d& geometric, bool flipped, const Vec3d& direction) {
@@ -111,12 +95,11 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
 
   SurfacePoint point;
   const bool from_inside = dot(hit.normal, direction) > 0;
-  const Vec3d off = hit.normal * compile::surface_offset(world, hit.position);
   point.position = hit.position;
   point.time = hit.time;
   point.normal = from_inside ? -hit.normal : hit.normal;
-  point.offset_position = from_inside ? hit.position - off : hit.position + off;
-  point.behind_position = from_inside ? hit.position + off : hit.position - off;
+  point.offset_position = hit.position + point.normal * hit.offset_before;
+  point.behind_position = hit.position - point.normal * hit.offset_behind;
   point.opacity = at.number(material.opacity, 1);
   if (material.emission) point.emission = at.color(*material.emission, largest_value);
 
@@ -135,8 +118,6 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
     point.reflectance = base_color;
     return point;
   }
-  const Outside outside = outside_of(world, hit);
-  if (outside.hides) point.opacity = 0;
   optics::SurfaceParameters p;
   p.base_color = base_color;
   p.metallic = at.number(material.metallic, p.metallic);
@@ -149,7 +130,8 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
     point.reflectance = base_color;
     return point;
   }
-  const double eta = from_inside && !hit.sheet ? outside.ior / compiled.ior : compiled.ior / outside.ior;
+  const double eta =
+      from_inside && !hit.sheet ? hit.outside_ior / compiled.ior : compiled.ior / hit.outside_ior;
   if (!hit.sheet) point.eta = eta;
   point.model.emplace(*world.albedo_tables, p, eta, hit.sheet, point.frame.local(-direction));
   point.reflectance = point.model->albedo();
@@ -160,7 +142,6 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
 
 float evaluate_opacity(const compile::CompiledScene& world, const compile::SurfaceHit& hit, Worker& worker) {
   const scene::Material& material = world.scene.materials[hit.material];
-  if (outside_of(world, hit).hides) return 0;
   return material.opacity ? MaterialAt(world, hit, worker).number(material.opacity, 1) : 1.0f;
 }
 

@@ -70,6 +70,7 @@ struct Worker {
   };
   std::vector<LaneTime> lane_times;  // of one batch, when its program reads the time
   std::vector<float> material_outputs;
+  std::vector<compile::SurfaceHit> met_together;  // SurfaceWalk's
   std::vector<CameraSample> tile_samples;
   std::vector<Rgb> tile_radiance;
   std::vector<AovSample> tile_aovs;
