@@ -7,6 +7,7 @@
 #include "base/numerics.h"
 #include "eval/evaluator.h"
 #include "eval/name_walk.h"
+#include "syntax/foreign_words.h"
 
 namespace tyndall::eval {
 
@@ -176,6 +177,8 @@ Value Evaluator::unknown_name(SymbolId symbol, Span span, const Scope* scope,
   if (const auto elsewhere = context_.defined_elsewhere(symbol, span))
     return error_once(span, fmt::format("nothing is named '{}' here", word), std::string(elsewhere->help),
                       {{elsewhere->place, fmt::format("'{}' is defined here", word)}});
+  if (const std::string_view help = help_for_foreign_word(ForeignUse::value, word); !help.empty())
+    return error_once(span, fmt::format("nothing is named '{}' here", word), std::string(help), {});
   // Those that nothing uses first: one of them may have been meant.
   std::vector<std::string_view> candidates;
   for (const bool used : {false, true})
