@@ -14,8 +14,8 @@ Solids::Solids(const scene::Scene& scene, const Vec3d& origin, std::span<const C
   const Transform render_from_world = Transform::translate(-origin);
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     const scene::ShapeInstance& s = scene.shapes[i];
-    const std::vector<scene::ShapeInstance>* keys = nullptr;
-    if (moving != scene.motion.shapes.end() && moving->index == i) keys = &(moving++)->keys;
+    const scene::Moving<scene::ShapeInstance>* motion = nullptr;
+    if (moving != scene.motion.shapes.end() && moving->index == i) motion = &*moving++;
     if (!materials[s.material.index].transmits || is_sheet(s.shape, parts)) continue;
     const auto inverse = (render_from_world * s.world_from_object).inverse();
     CHECK(inverse.has_value());  // resolve refuses transforms that flatten space
@@ -23,7 +23,7 @@ Solids::Solids(const scene::Scene& scene, const Vec3d& origin, std::span<const C
                      *inverse,
                      {s.priority, static_cast<std::int64_t>(i)},
                      materials[s.material.index].ior,
-                     keys});
+                     motion});
   }
 }
 

@@ -39,7 +39,7 @@ class Solids {
     Transform shape_from_render;
     SolidRank rank;
     double ior;
-    const std::vector<scene::ShapeInstance>* motion;  // keys over the shutter; null: it stands still
+    const scene::Moving<scene::ShapeInstance>* motion;  // null: it stands still
   };
   // Calls visit(shape, shape_from_render) for the body as it is at a ray's time.
   template <class Visit>
