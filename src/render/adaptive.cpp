@@ -97,26 +97,35 @@ void AdaptivePlan::measure(const Film& film, const std::vector<Tile>& tiles) {
     if (e > outlier * estimate_.squared) estimate_.outliers += e / pixels;
 }
 
-// What one half wants of each tile: as much as would bring the picture to the aim were this half as noisy as
-// the other, and no sample spent where another would gain more. The error of a tile is v / n; the sum of n is
-// least where n goes with the root of v.
+// The roots of what the other half's errors make of each tile's variance a sample: the sum of samples is
+// least for an error where they are shared out like these.
+void AdaptivePlan::set_shares() {
+  for (int half = 0; half < 2; ++half) {
+    const int other = 1 - half;
+    double mean = 0;
+    for (const TileState& s : states_) mean += s.weight * s.error[other] * s.taken[other];
+    for (TileState& s : states_)
+      s.share[half] = std::sqrt(s.error[other] * s.taken[other] + least_share * mean);
+  }
+}
+
+// What one half wants of each tile: as much as would bring the picture to the aim, were this half as noisy as
+// the other.
 void AdaptivePlan::want(int half) {
   const int other = 1 - half;
-  double mean = 0;
-  for (const TileState& s : states_) mean += s.weight * s.error[other] * s.taken[other];
   const auto count = [&](const TileState& s, double factor) {
-    const double v = s.error[other] * s.taken[other] + least_share * mean;
-    return std::clamp(factor * std::sqrt(v), double(std::min(s.taken[half], most_per_half_)),
-                      double(most_per_half_));
+    return std::clamp(factor * s.share[half], double(s.taken[half]), double(most_per_half_));
   };
   const auto planned = [&](double factor) {
     double sum = 0;
     for (const TileState& s : states_)
-      sum += s.weight * s.error[other] * s.taken[other] / (2 * std::max(count(s, factor), 1.0));
+      sum += s.weight * s.error[other] * s.taken[other] / (2 * count(s, factor));
     return sum;
   };
   const double goal = aim * aim * target_ * target_;
-  double lo = 0, hi = mean > 0 ? most_per_half_ / std::sqrt(least_share * mean) : 0;
+  double lo = 0, hi = 0;
+  for (const TileState& s : states_)
+    if (s.share[half] > 0) hi = std::max(hi, most_per_half_ / s.share[half]);
   if (planned(lo) <= goal) hi = lo;
   for (int i = 0; i < 60 && lo < hi; ++i) {
     const double middle = (lo + hi) / 2;
@@ -125,21 +134,31 @@ void AdaptivePlan::want(int half) {
   for (TileState& s : states_) s.wanted[half] = static_cast<int>(std::ceil(count(s, hi)));
 }
 
+bool AdaptivePlan::satisfied(int half) const {
+  return std::all_of(states_.begin(), states_.end(),
+                     [&](const TileState& s) { return s.taken[half] >= s.wanted[half]; });
+}
+
 void AdaptivePlan::finish_pass(const Film& film, const std::vector<Tile>& tiles) {
-  bool first = false;
-  for (std::size_t i = 0; i < tiles.size(); ++i)
-    for (int half = 0; half < 2; ++half) {
-      states_[i].taken[half] += run(i, half).count;
-      first |= states_[i].taken[half] < states_[i].wanted[half] && states_[i].taken[half] < least_samples / 2;
-    }
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const std::array<int, 2> counts{run(i, 0).count, run(i, 1).count};
+    for (int half = 0; half < 2; ++half) states_[i].taken[half] += counts[half];
+  }
   measure(film, tiles);
-  if (!first)
-    for (int half = 0; half < 2; ++half) want(half);
-  done_ = true;
+  if (!decides_ && satisfied(0)) {
+    decides_ = true;
+    set_shares();
+  }
+  if (decides_)
+    for (int half = 0; half < 2; ++half) {
+      if (final_[half]) continue;
+      want(half);
+      final_[half] = satisfied(half);
+    }
+  done_ = final_[0] && final_[1];
   double taken = 0, wanted = 0;
   for (const TileState& s : states_)
     for (int half = 0; half < 2; ++half) {
-      done_ &= s.taken[half] >= s.wanted[half];
       taken += s.weight * s.taken[half];
       wanted += s.weight * std::max(s.taken[half], s.wanted[half]);
     }

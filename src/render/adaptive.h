@@ -64,15 +64,21 @@ class AdaptivePlan {
     std::array<int, 2> wanted{};    // of each half in the end, as it looks now
     std::array<double, 2> error{};  // squared, of each half's mean
     double weight = 0;              // of its pixels in the picture
+    std::array<double, 2> share{};  // of each half's samples
   };
   int next_count(int taken, int wanted) const;
   void measure(const Film& film, const std::vector<Tile>& tiles);
+  void set_shares();
   void want(int half);
+  bool satisfied(int half) const;
   static constexpr int longest_pass = 64;  // samples of a half: bounds what a tile holds in memory
 
   double target_;
   int most_per_half_;
   std::vector<TileState> states_;
+  bool decides_ = false;  // the least samples are there
+  std::array<bool, 2>
+      final_{};  // a half that was satisfied stays so: what the other learns because of it tells it nothing
   bool done_ = false;
   struct Estimate {
     double squared = 0, outliers = 0;

@@ -95,6 +95,7 @@ struct Statistics {
   bool stopped = false;        // by RenderOptions::stop
   bool out_of_time = false;    // ended by the time limit
   double estimated_error = 0;  // with RenderOptions::error: of the picture, in its measure
+  double outlier_share = 0;    // of its square, in pixels that have more than a hundred times the mean
 };
 
 struct RenderResult {
