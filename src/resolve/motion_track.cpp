@@ -10,6 +10,9 @@ namespace {
 // Beyond this a way is taken for a jump: what is in between lasts too short to be seen.
 constexpr double least_time = 1.0 / 8192;
 
+// Of what is near enough: a parabola has 94 % of its largest error where it is tested.
+constexpr double tested_enough = 0.9;
+
 // So near to a straight line is one.
 constexpr double straight_enough = 0.01;  // of what is near enough
 
@@ -55,8 +58,8 @@ Track<T>::Track(std::uint32_t index, std::map<double, T> known, const Balls& bal
   for (const auto& [moment, thing] : known_) range_.add(thing, balls);
   find_pivots(balls);
   open_.push_back({0, 1});
-  const bool tested = known_.size() == 4;
-  if (!tested) {  // it was seen to move elsewhere
+  const auto [a, b] = tests_between(0, 1);
+  if (known_.count(a) == 0 || known_.count(b) == 0) {  // it was seen to move elsewhere
     for (const auto& [moment, thing] : known_) keys_.insert(moment);
     open_.clear();
     for (auto k = keys_.begin(); std::next(k) != keys_.end(); ++k) split(*k, *std::next(k));
@@ -125,7 +128,7 @@ void Track<T>::decide(const Balls& balls) {
   for (const auto& [a, b] : before) {
     const double error = error_between(a, b, straight_, balls);
     const auto [c, d] = tests_between(a, b);
-    if (error <= 1) {
+    if (error <= tested_enough) {
       known_.erase(c);
       known_.erase(d);
       continue;
