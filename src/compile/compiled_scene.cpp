@@ -204,10 +204,15 @@ void CompiledScene::volume_intervals(const Ray& ray, RayKind kind, std::vector<V
 }
 
 CompiledVolume::Place CompiledVolume::moved(double time) const {
-  const scene::Volume v = scene::at(*motion, time);
   const Transform render_from_world = Transform::translate(-origin);
-  return {v.shape, inverse_of(render_from_world * v.world_from_shape),
-          inverse_of(render_from_world * v.world_from_medium)};
+  // What is flat for one moment is taken for what it is beside it.
+  for (double beside = 0; beside < 1; beside = beside * 2 + 0x1p-20) {
+    const scene::Volume v = scene::at(*motion, time < 0.5 ? time + beside : time - beside);
+    const auto from_render = (render_from_world * v.world_from_shape).inverse(),
+               to_medium = (render_from_world * v.world_from_medium).inverse();
+    if (from_render && to_medium) return {v.shape, *from_render, *to_medium};
+  }
+  CHECK(false);  // resolve refuses transforms that flatten space
 }
 
 LightAt::LightAt(const CompiledScene& world, std::uint32_t index, double time)
@@ -244,7 +249,7 @@ CompiledScene compile(scene::Scene scene) {
   if (!motion.lights.empty()) {
     world.light_motion.resize(world.lights.size());
     for (const auto& light : motion.lights) {
-      world.light_motion[light.index] = &light.keys;
+      world.light_motion[light.index] = &light;
       if (auto* mesh = std::get_if<optics::MeshLight>(&world.lights[light.index])) mesh->drawn = false;
     }
   }
@@ -268,7 +273,7 @@ CompiledScene compile(scene::Scene scene) {
     out.origin = world.origin;
     world.volumes.push_back(std::move(out));
   }
-  for (const auto& v : motion.volumes) world.volumes[v.index].motion = &v.keys;
+  for (const auto& v : motion.volumes) world.volumes[v.index].motion = &v;
 
   for (const scene::Material& m : world.scene.materials)
     world.materials.push_back(compiled(m, world.scene.time));

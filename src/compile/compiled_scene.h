@@ -120,9 +120,9 @@ struct CompiledVolume {
   std::uint32_t grid = no_index, time_slabs = 1;
   scene::Shape shape;
   bool visible = true;
-  std::optional<SolidRank> rank{};                     // set: it gives way to bodies of glass above it
-  const std::vector<scene::Volume>* motion = nullptr;  // keys over the shutter, of those that move
-  Vec3d origin;                                        // of render space, for them
+  std::optional<SolidRank> rank{};                       // set: it gives way to bodies of glass above it
+  const scene::Moving<scene::Volume>* motion = nullptr;  // of those that move
+  Vec3d origin;                                          // of render space, for them
 
   // What of it depends on the ray's time, a fraction of the time that the shutter is open.
   std::uint32_t grid_at(double time) const {
@@ -169,9 +169,9 @@ class CompiledScene {
   // scene.lights, moved to render space; then shapes whose material glows alike everywhere.
   std::vector<optics::Light> lights;
   std::vector<double> light_errors;  // of each mesh light: how far off it a hit may be [m]
-  std::vector<const std::vector<scene::LightInstance>*> light_motion;  // keys; empty when none moves
-  std::vector<std::uint32_t> distant_lights;                           // indices of lights
-  std::unique_ptr<const LightTree> light_tree;                         // when there are many
+  std::vector<const scene::Moving<scene::LightInstance>*> light_motion;  // empty when none moves
+  std::vector<std::uint32_t> distant_lights;                             // indices of lights
+  std::unique_ptr<const LightTree> light_tree;                           // when there are many
   std::unique_ptr<Geometry> geometry;
   std::unique_ptr<const Solids> solids;              // when Features::nested_glass or volumes have priorities
   std::vector<std::unique_ptr<MajorantGrid>> grids;  // of volumes whose medium varies; see grid_walk.h

@@ -79,29 +79,29 @@ Geometry::Geometry(const scene::Scene& scene, const Features& features, const Ve
   }
 }
 
-// The keys of a light's surface, in render space; null when it stands still.
-const std::vector<scene::ShapeInstance>* Geometry::moving_light_surface(const scene::Scene& scene,
-                                                                        std::uint32_t light,
-                                                                        const Vec3d& origin) {
+// How a light's surface moves, in render space; null when it stands still.
+const scene::Moving<scene::ShapeInstance>* Geometry::moving_light_surface(const scene::Scene& scene,
+                                                                          std::uint32_t light,
+                                                                          const Vec3d& origin) {
   const auto& moving = scene.motion.lights;
   const auto found =
       std::find_if(moving.begin(), moving.end(), [&](const auto& m) { return m.index == light; });
   if (found == moving.end()) return nullptr;
-  std::vector<scene::ShapeInstance>& keys = light_surface_keys_.emplace_back();
+  scene::Moving<scene::ShapeInstance>& motion = light_surface_motions_.emplace_back();
+  motion.times = found->times;
+  motion.turnings = found->turnings;
   for (const scene::LightInstance& key : found->keys) {
-    keys.push_back(*light_surface(key, key.light));
-    keys.back().world_from_object.t -= origin;
+    motion.keys.push_back(*light_surface(key, key.light));
+    motion.keys.back().world_from_object.t -= origin;
   }
-  return &keys;
+  return &motion;
 }
 
 Bounds Geometry::volume_bounds(const CompiledVolume& v) const {
   if (!v.motion) return placed_bounds(*bounds(v.shape, parts()), v.render_from_shape);
-  const auto& keys = *v.motion;
-  return swept_bounds(keys.size(), [&](std::size_t i, std::size_t j) {
-    return placed_bounds(*bounds(keys[i].shape, parts()),
-                         Transform::translate(-v.origin) * keys[j].world_from_shape);
-  });
+  return swept_bounds(
+      *v.motion, 0, [&](const scene::Volume& at) { return *turned_bounds(at.shape, parts()); },
+      [&](const scene::Volume& at) { return Transform::translate(-v.origin) * at.world_from_shape; });
 }
 
 std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind, const HitOrder& after) const {

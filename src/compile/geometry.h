@@ -35,13 +35,13 @@ class Geometry {
   Bounds volume_bounds(const CompiledVolume& volume) const;
 
  private:
-  const std::vector<scene::ShapeInstance>* moving_light_surface(const scene::Scene& scene,
-                                                                std::uint32_t light, const Vec3d& origin);
+  const scene::Moving<scene::ShapeInstance>* moving_light_surface(const scene::Scene& scene,
+                                                                  std::uint32_t light, const Vec3d& origin);
   std::vector<CompiledMesh> meshes_;
   std::vector<CompiledCurves> curves_;
   std::vector<Group> prototypes_;
   std::vector<scene::ShapeInstance> light_surfaces_;
-  std::deque<std::vector<scene::ShapeInstance>> light_surface_keys_;
+  std::deque<scene::Moving<scene::ShapeInstance>> light_surface_motions_;
   Group world_;
   std::span<const CompiledVolume> volumes_;
   std::optional<BoundsTree> volume_tree_;

@@ -73,6 +73,15 @@ Bounds united(const Bounds& a, const Bounds& b) {
   return out;
 }
 
+Bounds padded(const Bounds& b, double room) { return {b.lo - Vec3d(room), b.hi + Vec3d(room)}; }
+
+double reach(const Bounds& b, const Vec3d& from) {
+  Vec3d farthest;
+  for (int axis = 0; axis < 3; ++axis)
+    farthest[axis] = std::max(std::abs(b.lo[axis] - from[axis]), std::abs(b.hi[axis] - from[axis]));
+  return length(farthest);
+}
+
 Transform Group::group_from_object(const Transform& placed, std::uint32_t light) const {
   Transform out = placed;
   if (light == no_index) out.t -= offset_;  // the surfaces of lights are in the group's space already
@@ -89,14 +98,14 @@ void Group::add(std::span<const scene::ShapeInstance> surfaces,
     if (!strands_went_elsewhere(surfaces[i].shape, parts_) && (!keeps || keeps(surfaces[i])))
       surfaces_.push_back({inverse_of(group_from_object(surfaces[i].world_from_object, no_index)),
                            numbers_ + i, &surfaces[i], no_index, glows.empty() ? no_index : glows[i],
-                           moves ? &moving.front().keys : nullptr});
+                           moves ? &moving.front() : nullptr});
     if (moves) moving = moving.subspan(1);
   }
   numbers_ += surfaces.size();
 }
 
 void Group::add_light(const scene::ShapeInstance& surface, std::uint32_t light,
-                      const std::vector<scene::ShapeInstance>* motion) {
+                      const scene::Moving<scene::ShapeInstance>* motion) {
   surfaces_.push_back({inverse_of(surface.world_from_object), numbers_++, &surface, light, no_index, motion});
 }
 
@@ -111,7 +120,7 @@ void Group::add(std::span<const scene::Instance> instances,
     const bool moves = !moving.empty() && moving.front().index == k;
     if (!prototype.empty())
       instances_.push_back({inverse_of(group_from_object(i.world_from_object, no_index)), &i, &prototype,
-                            numbers_, moves ? &moving.front().keys : nullptr});
+                            numbers_, moves ? &moving.front() : nullptr});
     if (moves) moving = moving.subspan(1);
     numbers_ += prototype.numbers();
   }
@@ -135,21 +144,21 @@ std::optional<Transform> Group::object_from_group(const PlacedInstance& i, doubl
 }
 
 Bounds Group::box(const PlacedSurface& s) const {
-  const auto at = [&](const scene::ShapeInstance& shape, const scene::ShapeInstance& place) {
-    return placed_bounds(*compile::bounds(shape.shape, parts_),
-                         group_from_object(place.world_from_object, s.light));
+  const auto place = [&](const scene::ShapeInstance& at) {
+    return group_from_object(at.world_from_object, s.light);
   };
-  if (!s.motion) return at(*s.surface, *s.surface);
-  const auto& keys = *s.motion;
-  return swept_bounds(keys.size(), [&](std::size_t i, std::size_t j) { return at(keys[i], keys[j]); });
+  if (!s.motion) return placed_bounds(*compile::bounds(s.surface->shape, parts_), place(*s.surface));
+  return swept_bounds(
+      *s.motion, 0, [&](const scene::ShapeInstance& at) { return *turned_bounds(at.shape, parts_); }, place);
 }
 Bounds Group::box(const PlacedInstance& i) const {
-  const auto at = [&](const scene::Instance& place) {
-    return placed_bounds(*i.prototype->bounds(), group_from_object(place.world_from_object, no_index));
+  const auto place = [&](const scene::Instance& at) {
+    return group_from_object(at.world_from_object, no_index);
   };
-  if (!i.motion) return at(*i.instance);
-  const auto& keys = *i.motion;
-  return swept_bounds(keys.size(), [&](std::size_t, std::size_t k) { return at(keys[k]); });
+  const Bounds own = *i.prototype->bounds();
+  if (!i.motion) return placed_bounds(own, place(*i.instance));
+  return swept_bounds(
+      *i.motion, 0, [&](const scene::Instance&) { return own; }, place);
 }
 
 void Group::finish() {

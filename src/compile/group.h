@@ -2,6 +2,7 @@
 // which all its instances share. Rays are moved into the space of what they may meet, in double.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -21,9 +22,9 @@ struct PlacedSurface {
   Transform object_from_group;
   std::uint64_t number = 0;  // in the group: HitOrder's
   const scene::ShapeInstance* surface = nullptr;
-  std::uint32_t light = no_index;                             // of the surface of an area light
-  std::uint32_t glow = no_index;                              // the light that its glowing material makes it
-  const std::vector<scene::ShapeInstance>* motion = nullptr;  // keys over the shutter; null: it stands still
+  std::uint32_t light = no_index;  // of the surface of an area light
+  std::uint32_t glow = no_index;   // the light that its glowing material makes it
+  const scene::Moving<scene::ShapeInstance>* motion = nullptr;  // null: it stands still
 };
 
 // The nearest hit in a group's space.
@@ -72,7 +73,7 @@ class Group {
            std::span<const scene::Moving<scene::ShapeInstance>> moving, const Vec3d& offset = {},
            std::span<const std::uint32_t> glows = {}, const Keeps& keeps = {});
   void add_light(const scene::ShapeInstance& surface, std::uint32_t light,
-                 const std::vector<scene::ShapeInstance>* motion = nullptr);
+                 const scene::Moving<scene::ShapeInstance>* motion = nullptr);
   void add(std::span<const scene::Instance> instances, std::span<const scene::Moving<scene::Instance>> moving,
            std::span<const Group> prototypes, const Vec3d& offset = {});
   void finish();
@@ -101,7 +102,7 @@ class Group {
     const scene::Instance* instance = nullptr;
     const Group* prototype = nullptr;
     std::uint64_t first_number = 0;
-    const std::vector<scene::Instance>* motion = nullptr;
+    const scene::Moving<scene::Instance>* motion = nullptr;
   };
   // A hit as the test of the thing alone tells it, with the thing's index.
   struct Found {
@@ -145,16 +146,35 @@ class Group {
 Bounds placed_bounds(const Bounds& b, const Transform& to);
 // The box around both.
 Bounds united(const Bounds& a, const Bounds& b);
-// The box around all places of a thing that moves: `box(shape key, transform key)` is that of the thing with
-// the shape of one moment and the place of another. Between two keys every point of it is a mixture of the
-// four of such boxes (a product of two straight ways).
-template <class Box>
-Bounds swept_bounds(std::size_t keys, Box&& box) {
-  Bounds all = box(0, 0);
-  for (std::size_t k = 0; k + 1 < keys; ++k)
-    for (const auto& [i, j] : {std::pair{k, k + 1}, std::pair{k + 1, k}, std::pair{k + 1, k + 1}})
-      all = united(all, box(i, j));
-  return all;
+// The box, and as much room on each side.
+Bounds padded(const Bounds& b, double room);
+// The distance from a point to the farthest corner of a box.
+double reach(const Bounds& b, const Vec3d& from);
+
+// The box around all places of a thing that moves, where own_box(thing) is its box at a moment in the space
+// of its transform number `transform`, which place(thing) gives. Between two moments every point of it is
+// within the bend of a mixture of four such boxes: with the shape of one moment and the place of the other,
+// too (a product of two straight ways).
+template <class T, class Box, class Place>
+Bounds swept_bounds(const scene::Moving<T>& moving, std::size_t transform, Box&& own_box, Place&& place) {
+  std::optional<Bounds> all;
+  Bounds box_before{};
+  Transform place_before;
+  double farthest = 0;
+  const Vec3d pivot = moving.turnings.empty() ? Vec3d{} : moving.turnings[transform].pivot;
+  for (const double moment : scene::moments(moving)) {
+    const T now = scene::at(moving, moment);
+    const Bounds box_now = own_box(now);
+    const Transform place_now = place(now);
+    const Bounds here = placed_bounds(box_now, place_now);
+    all = all ? united(united(*all, here),
+                       united(placed_bounds(box_before, place_now), placed_bounds(box_now, place_before)))
+              : here;
+    farthest = std::max(farthest, reach(box_now, pivot));
+    box_before = box_now;
+    place_before = place_now;
+  }
+  return padded(*all, scene::bend(moving, transform) * farthest);
 }
 
 // Up to this many things a plain loop is faster than a tree.

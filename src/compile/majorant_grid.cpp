@@ -216,9 +216,13 @@ void MajorantGrid::add_box(const Vec3d& lo, const Vec3d& hi, BoundsScratch& scra
       highest[axis] = std::max(highest[axis], center[axis] + reach);
     }
   }
+  const double off =
+      domain_.bend > 0
+          ? domain_.bend * (length((low + high) * 0.5 - domain_.pivot) + length(high - low) * 0.5)
+          : 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    scratch.world[axis].push_back(below(lowest[axis]));
-    scratch.world[axis + 3].push_back(above(highest[axis]));
+    scratch.world[axis].push_back(below(lowest[axis] - off));
+    scratch.world[axis + 3].push_back(above(highest[axis] + off));
   }
 }
 

@@ -38,6 +38,9 @@ void for_each_stay(const scene::Shape& shape, const ShapeParts& parts, const Vec
   if (!stay.empty()) visit(stay);
 }
 std::optional<Bounds> bounds(const scene::Shape& shape, const ShapeParts& parts);
+// Those of disks and cylinders whichever way they face, so that a box around those of two moments holds what
+// turns from one to the other.
+std::optional<Bounds> turned_bounds(const scene::Shape& shape, const ShapeParts& parts);
 // Whether curves have no strands of their own: others near them have them (strand_groups.h).
 bool strands_went_elsewhere(const scene::Shape& shape, const ShapeParts& parts);
 // Whether the shape has no inside.

@@ -168,6 +168,7 @@ class Render {
       if (uneven_) break;
       plan.finish_pass(film_, tiles_);
       estimated_error_ = plan.estimated_error();
+      outlier_share_ = plan.outlier_share();
       fraction_scale_ = plan.fraction_done() / static_cast<double>(samples_done_.load());
       if (!plan.done()) end_pass();
     }
@@ -266,6 +267,7 @@ class Render {
     total.threads = threads_;
     total.threads_missed = threads_missed_;
     total.estimated_error = estimated_error_;
+    total.outlier_share = outlier_share_;
     return total;
   }
 
@@ -281,7 +283,7 @@ class Render {
   std::vector<std::unique_ptr<Worker>> workers_;
   std::atomic<std::uint64_t> samples_done_{0};
   double fraction_scale_ = 0;  // of the work, per sample
-  double estimated_error_ = 0;
+  double estimated_error_ = 0, outlier_share_ = 0;
   bool out_of_time_ = false;
   std::atomic<bool> uneven_{false};
   int threads_ = 0, threads_missed_ = 0;  // most of a pass

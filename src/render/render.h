@@ -98,6 +98,7 @@ struct Statistics {
   int threads = 0;             // that took part
   int threads_missed = 0;      // that would have, had the system given them
   double estimated_error = 0;  // with RenderOptions::error: of the picture, in its measure
+  double outlier_share = 0;    // of its square, in pixels that have more than a hundred times the mean
 };
 
 struct RenderResult {

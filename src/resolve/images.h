@@ -21,6 +21,9 @@ class Images final : public eval::ImageReader {
   std::string find(const std::string& name, Span span) override;
   std::vector<PlanePointer> planes(const eval::Image& image) override;
 
+  // What another run of the same scene has decoded.
+  void share(const Images& other) { known_ = other.known_; }
+
   // While nothing will be rendered from what is evaluated (bodies that nothing uses), lookups are in
   // stand-ins and no file is decoded.
   void stand_in(bool on) { stand_in_ = on; }

@@ -47,7 +47,7 @@ const syntax::SyntaxTree* tree_of(Run& run, const fs::path& path, const std::str
   if (!text) return nullptr;
   const SourceId source = run.sources.add(path.string(), std::move(*text));
   const syntax::TokenList tokens = syntax::lex(run.sources, source, run.diagnostics);
-  known->second = std::make_unique<syntax::SyntaxTree>(
+  known->second = std::make_shared<const syntax::SyntaxTree>(
       syntax::parse(run.sources, source, tokens, run.symbols, run.diagnostics));
   note_unread(run, *known->second);
   return known->second.get();

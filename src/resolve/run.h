@@ -45,8 +45,9 @@ struct Override {
 
 // Files brought in by `include`.
 struct Includes {
-  std::map<std::string, std::unique_ptr<syntax::SyntaxTree>> trees;  // by canonical path; null: unreadable
-  std::vector<std::string> open;                                     // being run, outermost first
+  std::map<std::string, std::shared_ptr<const syntax::SyntaxTree>>
+      trees;                      // by canonical path; null: unreadable
+  std::vector<std::string> open;  // being run, outermost first
 };
 
 // A light in the space of the object that holds it, as read, and how it gets there.

@@ -299,7 +299,7 @@ struct Prototype {
 
 // What moves of a scene beside its prototypes' things, each in order of index.
 struct Motion {
-  std::vector<Camera> camera;  // empty: it stands still
+  Moving<Camera> camera;  // empty: it stands still
   std::vector<Moving<ShapeInstance>> shapes;
   std::vector<Moving<Instance>> instances;
   std::vector<Moving<Volume>> volumes;  // of all_volumes

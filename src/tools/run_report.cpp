@@ -45,6 +45,16 @@ nlohmann::json bad_values_json(const std::vector<render::BadValue>& bad_values, 
   return list;
 }
 
+// The error that was reached, and whether it is to be trusted.
+std::string error_text(double wanted, const render::Statistics& statistics) {
+  std::string text = fmt::format(", estimated error {:.3g}", statistics.estimated_error);
+  if (statistics.estimated_error > wanted) text += fmt::format(" where {:.3g} was wanted", wanted);
+  if (statistics.outlier_share > 0.5)
+    text += fmt::format(" ({:.0f} % of its square in a few pixels that met rare bright paths: more may come)",
+                        100 * statistics.outlier_share);
+  return text;
+}
+
 }  // namespace
 
 std::string stable_hash(std::string_view text) {
@@ -128,7 +138,10 @@ nlohmann::json statistics_json(const scene::Scene& scene, const std::string& sce
       {"cut_throughput", s.cut_throughput},
       {"peak_memory_bytes", peak_memory()},
   };
-  if (s.estimated_error > 0) result["estimated_error"] = s.estimated_error;
+  if (s.estimated_error > 0) {
+    result["estimated_error"] = s.estimated_error;
+    result["outlier_share"] = s.outlier_share;
+  }
   if (s.out_of_time) result["out_of_time"] = true;
   if (s.pixels_without_samples > 0) result["pixels_without_samples"] = s.pixels_without_samples;
   if (s.first_bad_sample)
@@ -184,8 +197,7 @@ std::string summary_line(const RenderArguments& arguments, const scene::Scene& s
   std::string samples;
   if (arguments.error || arguments.time_limit) {
     samples = fmt::format("{:.3g} samples a pixel", mean_samples(scene, statistics));
-    if (statistics.estimated_error > 0)
-      samples += fmt::format(", estimated error {:.3g}", statistics.estimated_error);
+    if (statistics.estimated_error > 0) samples += error_text(*arguments.error, statistics);
     if (statistics.out_of_time) samples += ", out of time";
   } else {
     const SampleRange range = samples_of(arguments, scene);
