@@ -37,7 +37,7 @@ struct RenderParameters {
     field(&P::samples, FieldInfo{"samples", "paths through each pixel, >= 1"});
     field(&P::step,
           FieldInfo{"step", "length of a march's segments, > 0 [m], or `auto(tolerance)`", Quantity::length});
-    field(&P::light_samples, FieldInfo{"light_samples", "light points for each path segment, >= 1"});
+    field(&P::light_samples, FieldInfo{"light_samples", "light points for each path segment, 1 to 65536"});
     field(&P::bounces, FieldInfo{"bounces", "scatterings and reflections at most, >= 0"});
     field(&P::seed, FieldInfo{"seed", "of the random numbers, a whole number >= 0"});
     field(&P::multiple_scattering,

@@ -84,7 +84,9 @@ Problems validate(const RenderSettings& s) {
                                    max_resolution, s.width, s.height)});
   want_at_least(problems, "samples", s.samples, 1);
   if (!s.step.automatic()) want_positive(problems, "step", s.step.metres);
-  want_at_least(problems, "light_samples", s.light_samples, 1);
+  if (s.light_samples < 1 || s.light_samples > max_light_samples)
+    problems.push_back({"light_samples", fmt::format("'light_samples' must be from 1 to {}, found {}",
+                                                     max_light_samples, s.light_samples)});
   want_at_least(problems, "bounces", s.bounces, 0);
   return problems;
 }

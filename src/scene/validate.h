@@ -12,6 +12,9 @@
 
 namespace tyndall::scene {
 
+// Light samples of one march or surface: their sum stays exact in floats, and their random numbers apart.
+inline constexpr int max_light_samples = 1 << 16;
+
 // One thing wrong: the parameter it is about, what was wanted and found, and the way out (may be empty).
 struct Problem {
   std::string_view field;
