@@ -77,17 +77,19 @@ void place_object(Run& run, const Site& site, const eval::Value& value, const Tr
 }  // namespace
 
 bool Run::may_place(const KnownObject& object, Span span) {
-  double& count = building ? building->placed : placed;
-  const std::size_t lights = building ? building->lights.size() : scene.lights.size();
-  const double brings = 1 + object.holds + static_cast<double>(object.lights.size());
-  if (count + static_cast<double>(lights) + brings <= static_cast<double>(options.max_repetitions)) {
-    count += 1 + object.holds;
-    return true;
-  }
-  diagnostics.error(span, fmt::format("more than {} things placed by objects", options.max_repetitions),
-                    fmt::format("this object brings {:.15g}: objects within objects multiply, and a scene "
-                                "may have {} in all",
-                                brings, options.max_repetitions));
+  double& things = building ? building->placed : placed;
+  double& lights = building ? building->placed_lights : placed_lights;
+  things += 1 + object.holds;
+  lights += static_cast<double>(object.lights.size());
+  const auto most_things = static_cast<double>(options.max_repetitions);
+  const bool too_many_lights = lights > max_placed_lights;
+  if (things <= most_things && !too_many_lights) return true;
+  diagnostics.error(
+      span,
+      fmt::format("more than {} {} placed by objects", too_many_lights ? max_placed_lights : most_things,
+                  too_many_lights ? "lights" : "things"),
+      fmt::format("this one makes them {:.15g}: objects within objects multiply",
+                  too_many_lights ? lights : things));
   stopped = true;
   return false;
 }

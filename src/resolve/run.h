@@ -68,9 +68,10 @@ struct ObjectLight {
 struct BuiltObject {
   scene::Prototype things;
   std::vector<ObjectLight> lights;
-  bool inherits_material = false;      // something in it names no material
-  bool sets_variable = false;          // a variable from outside, so each placement must run the body again
-  double placed = 0;                   // objects in it, and volumes in those: what Run::may_place counts
+  bool inherits_material = false;  // something in it names no material
+  bool sets_variable = false;      // a variable from outside, so each placement must run the body again
+  double placed = 0;               // objects in it, and volumes in those: what Run::may_place counts
+  double placed_lights = 0;
   const eval::Scope* scope = nullptr;  // of its body, while it is run
 };
 
@@ -138,9 +139,9 @@ struct Run {
 
   int template_depth = 0, block_depth = 0;
   long repetitions = 0;
-  double placed = 0;             // objects, and volumes in them, each time it is seen
-  bool stopped = false;          // a limit was met: nothing more is run
-  std::vector<bool> blocks_run;  // of the main file, by number: met once at least
+  double placed = 0, placed_lights = 0;  // objects and volumes in them, and lights, each time
+  bool stopped = false;                  // a limit was met: nothing more is run
+  std::vector<bool> blocks_run;          // of the main file, by number: met once at least
 
   std::vector<scene::ShapeInstance>& shapes() { return building ? building->things.shapes : scene.shapes; }
   std::vector<scene::Volume>& volumes() { return building ? building->things.volumes : scene.volumes; }
