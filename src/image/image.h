@@ -1,6 +1,8 @@
 // Float images with named channels; reading and writing through OpenImageIO (in one .cpp).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,8 +57,23 @@ struct ReadResult {
 };
 // Reads an EXR as it is and a PNG as the linear light of its sRGB values.
 ReadResult read(const std::string& path);
-// Reads a picture of any kind for lookups: numbers stored as whole ones (8 or 16 bits) are taken for sRGB and
-// made linear, floating-point ones are linear already, alpha is left apart from the colours.
-ReadResult read_any(const std::string& path, std::size_t most_pixels);
+
+// One channel of a picture, row by row from the top.
+struct ReadPlane {
+  std::size_t channel = 0;
+  std::vector<float> texels;
+};
+struct PlanesResult {
+  int width = 0, height = 0;
+  std::vector<std::string> channels{};  // all that the file has
+  std::vector<ReadPlane> planes{};      // none when what was asked for is not there, or after an error
+  std::string error{};                  // fit for the user
+};
+// Reads the colour of a picture of any kind for lookups (its R, G and B, or what stands for them; one plane
+// where they are one channel), or the channel of that name, whatever its case. Numbers stored as whole ones
+// (8 or 16 bits) are taken for sRGB and made linear, floating-point ones are linear already, alpha is left
+// apart from the colours. The picture is the file's display window, black where nothing is stored. An error
+// when it would take more than `most_bytes`, before they are taken.
+PlanesResult read_planes(const std::string& path, const std::string& channel, std::uint64_t most_bytes);
 
 }  // namespace tyndall::image

@@ -68,7 +68,7 @@ void run_call(Run& run, const Site& site, const syntax::CallItem& item) {
   Site inside = site;
   inside.tree = function->tree;
   inside.scope = scope;
-  std::vector<std::string> included;
+  std::unordered_set<std::string> included;
   inside.included = &included;
   run_block(run, inside, definition->body);
   report_unused(run, *scope);

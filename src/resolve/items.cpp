@@ -1,6 +1,8 @@
 // The items of scene code, in order: definitions, variables, conditions, loops, statements.
 #include <fmt/format.h>
 
+#include <new>
+
 #include "base/overloaded.h"
 #include "resolve/run.h"
 
@@ -100,7 +102,13 @@ void run_block(Run& run, const Site& site, syntax::BlockId block, Parameters par
     if (run.finished()) break;
     const syntax::Item& item = (*site.tree)[id];
     if (parameters == Parameters::read && std::holds_alternative<syntax::ParameterItem>(item.node)) continue;
-    run_item(run, site, item);
+    try {
+      run_item(run, site, item);
+    } catch (const std::bad_alloc&) {  // what the item had taken is free again
+      run.stopped = true;
+      run.diagnostics.error(item.span, "there is not enough memory for what this makes",
+                            "make less of it, or use a machine with more");
+    }
   }
   --run.block_depth;
 }
@@ -108,7 +116,7 @@ void run_block(Run& run, const Site& site, syntax::BlockId block, Parameters par
 void run_inner_block(Run& run, const Site& site, syntax::BlockId block, Parameters parameters) {
   Site inside = site;
   inside.scope = below(site.scope);
-  std::vector<std::string> included;
+  std::unordered_set<std::string> included;
   inside.included = &included;
   run_block(run, inside, block, parameters);
   report_unused(run, *inside.scope);
@@ -148,7 +156,7 @@ void run_for(Run& run, const Site& site, const syntax::ForItem& loop) {
   Site inside = site;
   for (std::int64_t i = 0; i < rounds && !run.finished() && run.diagnostics.error_count() == errors; ++i) {
     inside.scope = below(site.scope);
-    std::vector<std::string> included;
+    std::unordered_set<std::string> included;
     inside.included = &included;
     const eval::Value value =
         range ? eval::Value::number(eval::at(over, i)) : (*list)[static_cast<std::size_t>(i)];

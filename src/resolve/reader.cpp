@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/overloaded.h"
+#include "resolve/limits.h"
 
 namespace tyndall::resolve {
 
@@ -276,16 +277,6 @@ void Reader::read_value(const FieldInfo& info, const Given& given, Rgb& to) {
            "a number or a colour", to);
 }
 
-void Reader::read_value(const FieldInfo& info, const Given& given, optics::SkyRadiance& to) {
-  const eval::Value value = evaluator_.evaluate(*site_.tree, given.item->value, *site_.scope);
-  const auto* image = value.get<eval::Image>();
-  if (!image) return to_color(info, value, value_span(given), "a number, a colour or an image", to.color);
-  const std::vector<PlanePointer> planes = evaluator_.context().images->planes(*image);
-  ok_ &= !planes.empty();
-  for (std::size_t c = 0; c < 3 && !planes.empty(); ++c) to.picture[c] = planes[planes.size() == 3 ? c : 0];
-  to.color = Rgb(image->factor);
-}
-
 void Reader::read_value(const FieldInfo& info, const Given& given, Pair<int>& to) {
   const eval::Value value = evaluate(eval::Type::pair, info, given);
   if (value.is_error()) return;
@@ -343,6 +334,7 @@ void Reader::read_value(const FieldInfo& info, const Given& given, StrandPoints&
   if (list.is_error()) return;
   const bool many = !list.as_list().empty() && list.as_list().front().type == eval::Type::list;
   if (!many) to.strands.emplace_back();
+  std::size_t points = 0;
   for (const eval::Value& value : list.as_list()) {
     if (!many) {
       const eval::Value point = element(eval::Type::vec, info, given, value);
@@ -352,6 +344,10 @@ void Reader::read_value(const FieldInfo& info, const Given& given, StrandPoints&
     }
     const eval::Value strand = element(eval::Type::list, info, given, value);
     if (strand.is_error()) return;
+    points += strand.as_list().size();
+    if (points > max_curve_points)
+      return error(value_span(given), fmt::format("more than {} points of curves", max_curve_points),
+                   "give them to several `curves`");
     to.strands.emplace_back();
     for (const eval::Value& inner : strand.as_list()) {
       const eval::Value point = element(eval::Type::vec, info, given, inner);

@@ -47,7 +47,7 @@ void settle_time(Run& run) {
 
 void run_main_file(Run& run) {
   run.file_scope = std::make_shared<eval::Scope>();
-  std::vector<std::string> included;
+  std::unordered_set<std::string> included;
   run.includes.open.push_back(main_file_key(run));
   run_block(run, Site{run.main, run.file_scope, &included}, run.main->file);
   run.includes.open.pop_back();

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/check.h"
+#include "base/line_ends.h"
 #include "image/files.h"
 #include "syntax/format.h"
 #include "tools/commands.h"
@@ -29,6 +30,12 @@ std::string meaning_of(const std::string& name, const std::string& text) {
   return syntax::print(scene.tree, scene.symbols);
 }
 
+// The text with the byte order mark and the line ends that the file had; of several kinds the most frequent.
+std::string as_written_before(const std::string& formatted, const std::string& before) {
+  const std::string_view mark = before.starts_with(byte_order_mark) ? byte_order_mark : "";
+  return std::string(mark) + with_line_ends(formatted, line_ends_of(before).usual());
+}
+
 // Formats one file, or only looks whether it is formatted; true unless there is a problem.
 bool format_file(const std::string& path, bool check) {
   if (!check && !image::appears_whole(path)) {
@@ -37,12 +44,13 @@ bool format_file(const std::string& path, bool check) {
   }
   SceneRequest request;
   request.path = path;
+  request.keep_text = true;
   const std::unique_ptr<LoadedScene> scene = load(request, Stage::tree);
   print_diagnostics(scene->diagnostics, scene->sources);
   if (scene->diagnostics.has_errors()) return false;
-  const std::string_view before = scene->sources[scene->source].text();
-  const std::string after = syntax::format(scene->sources, scene->source, scene->tokens, scene->tree);
-  if (after == before) return true;
+  const std::string formatted = syntax::format(scene->sources, scene->source, scene->tokens, scene->tree);
+  const std::string after = as_written_before(formatted, scene->text);
+  if (after == scene->text) return true;
   if (check) {
     print_result(fmt::format("{}: would be formatted\n", path));
     return false;

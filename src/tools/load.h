@@ -28,6 +28,8 @@ struct SceneRequest {
   std::optional<int> frame;
   std::vector<std::pair<std::string, std::string>> overrides;  // --set NAME=EXPR
   std::vector<std::string> include_directories;
+  bool allow_outside = false;  // files outside of the folders of the scene and of --include
+  bool keep_text = false;
   bool may_only_define = false;  // a file of definitions for other scenes is good
   std::string watch;             // a name of media's bodies whose value is wanted as well (scene::Watched)
 };
@@ -42,6 +44,7 @@ struct LoadedScene {
   Sources sources;
   syntax::Symbols symbols;
   Diagnostics diagnostics;
+  std::string text;  // the file as it is, where that is asked for
   SourceId source;
   syntax::TokenList tokens;
   syntax::SyntaxTree tree;

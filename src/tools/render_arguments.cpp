@@ -223,6 +223,7 @@ std::string replay_command(const RenderArguments& arguments, int x, int y, std::
     command += " --set " + shell_word(variable + "=" + expression);
   for (const std::string& directory : arguments.scene.include_directories)
     command += " --include " + shell_word(directory);
+  if (arguments.scene.allow_outside) command += " --allow-outside";
   if (arguments.resolution)
     command += fmt::format(" --resolution {}x{}", arguments.resolution->x, arguments.resolution->y);
   add("--samples", arguments.samples);

@@ -14,6 +14,7 @@
 #include "tools/commands.h"
 #include "tools/files_in_use.h"
 #include "tools/interrupt.h"
+#include "tools/memory.h"
 #include "tools/profile.h"
 #include "tools/progress.h"
 #include "tools/report.h"
@@ -253,13 +254,16 @@ ExitStatus run_render(const RenderArguments& arguments) {
 
   StageSeconds seconds{loaded->seconds.read, loaded->seconds.parse, loaded->seconds.resolve};
   Stopwatch watch;
-  const compile::CompiledScene world = compile::compile(std::move(loaded->scene));
+  const compile::CompiledScene world =
+      with_memory("to compile the scene", [&] { return compile::compile(std::move(loaded->scene)); });
   seconds.compile = watch.lap();
   if (arguments.pixel) return replay(arguments, world);
 
-  const render::RenderResult result = render_with_progress(arguments, world, scene_hash);
+  const render::RenderResult result = with_memory(
+      "to render the picture", [&] { return render_with_progress(arguments, world, scene_hash); });
   seconds.render = watch.lap();
-  return finish(arguments, *loaded, world.scene, scene_hash, result, seconds);
+  return with_memory("to write the picture",
+                     [&] { return finish(arguments, *loaded, world.scene, scene_hash, result, seconds); });
 }
 
 }  // namespace

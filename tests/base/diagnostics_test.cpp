@@ -53,6 +53,29 @@ TEST(Diagnostics, WhatWouldDisturbATerminalIsReplaced) {
       << place.shown("m");
 }
 
+TEST(Diagnostics, LinesEndInThreeWays) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    Place place("let a = 1" + end + "let b = x" + end, "x");
+    EXPECT_EQ(place.shown("m"),
+              "scene.tyn:2:9: error: m\n"
+              "    2 | let b = x\n"
+              "      |         ^\n");
+  }
+}
+
+TEST(Diagnostics, AByteOrderMarkIsNoPartOfTheLine) {
+  Place place("\xef\xbb\xbfsphere x", "x");
+  const std::string wanted = "    1 | sphere x\n";
+  EXPECT_EQ(place.shown("m"), "scene.tyn:1:8: error: m\n" + wanted + "      |        ^\n");
+  place.span.begin = place.span.end = 0;
+  EXPECT_EQ(place.shown("m"), "scene.tyn:1:1: error: m\n" + wanted + "      | ^\n");
+}
+
+TEST(Diagnostics, LinesThatAreNoTextAreNotShown) {
+  Place place("x" + std::string(20, '\x01') + "secret", "x");
+  EXPECT_EQ(place.shown("m"), "scene.tyn:1:1: error: m\n");
+}
+
 TEST(Diagnostics, AnErrorAtTheEndOfALineOrFileHasACaretBehindIt) {
   Place place("let a =", "=");
   place.span.begin = place.span.end = 7;

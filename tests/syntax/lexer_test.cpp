@@ -254,5 +254,43 @@ TEST(Lexer, CommentsAreText) {
             "2:1 a control character or NUL byte [remove it: scenes are plain text]\n");
 }
 
+// LF, CR LF and CR alone end lines, and what goes to the end of a line.
+TEST(Lexer, LinesEndInThreeWays) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    EXPECT_EQ(words("// a" + end + "b // c" + end + "d"), "b d");
+    EXPECT_EQ(errors("a" + end + end + " \xff\xfe"),
+              "3:2 these bytes are not UTF-8 text [save the file as UTF-8]\n");
+    EXPECT_EQ(errors("a = \"b" + end + "c"),
+              "1:5 this string is never closed [close it with '\"' on the same line]\n");
+  }
+}
+
+TEST(Lexer, AFileHasABound) {
+  Sources sources;
+  const SourceId source = sources.add("a.tyn", "a b c\nd e");
+  for (const std::size_t most : {4, 5}) {
+    Diagnostics diagnostics;
+    const TokenList tokens = lex(sources, source, diagnostics, most);
+    ASSERT_EQ(diagnostics.error_count(), most == 4 ? 1 : 0);
+    EXPECT_EQ(tokens.tokens.back().kind, TokenKind::end_of_file);
+    if (most == 4) {
+      EXPECT_EQ(diagnostics.all()[0].message, "more than 4 words and marks");
+      EXPECT_EQ(sources[source].locate(diagnostics.all()[0].span.begin).line, 2u);
+    }
+  }
+}
+
+// However many brackets are never closed, few of them become tokens.
+TEST(Lexer, BracketsPastAllBoundsEndTheReading) {
+  for (const std::string open : {"(", "[", "{", "\"{"}) {
+    std::string text;
+    for (int i = 0; i < 100'000; ++i) text += open;
+    Sources sources;
+    const SourceId source = sources.add("a.tyn", text);
+    Diagnostics diagnostics;
+    EXPECT_LT(lex(sources, source, diagnostics).tokens.size(), 40'000u);
+  }
+}
+
 }  // namespace
 }  // namespace tyndall::syntax
