@@ -151,21 +151,21 @@ void evaluate_batch(const CompiledScene& world, std::span<const MarchRequest> re
   }
   MediumLanes lanes(world, program, worker);
   lanes.reserve(count);
-  if (!world.media[medium].homogeneous) {
-    std::size_t lane = 0;
-    for (const MarchBatchEntry& e : entries) {
-      const MarchRequest& request = requests[e.request];
-      const March& m = *request.out;
-      const Block& b = m.blocks[e.block];
-      const double* const t0 = m.t0.data() + b.first;
-      const compile::CompiledVolume& volume = world.volumes[b.volume];
-      if (places == Places::at_starts)
-        lanes.set(volume, m.ray, lane, PlacedSamples{t0, b.row_length});
-      else
-        lanes.set(volume, m.ray, lane,
-                  SegmentSamples{t0, m.dt.data() + b.first, request.seed, b.first, b.row_length});
-      lane += b.row_length;
-    }
+  std::size_t lane = 0;
+  for (const MarchBatchEntry& e : entries) {
+    const MarchRequest& request = requests[e.request];
+    const March& m = *request.out;
+    const Block& b = m.blocks[e.block];
+    const double* const t0 = m.t0.data() + b.first;
+    const compile::CompiledVolume& volume = world.volumes[b.volume];
+    if (world.media[medium].homogeneous)
+      lanes.set_time(lane, m.ray.time);
+    else if (places == Places::at_starts)
+      lanes.set(volume, m.ray, lane, PlacedSamples{t0, b.row_length});
+    else
+      lanes.set(volume, m.ray, lane,
+                SegmentSamples{t0, m.dt.data() + b.first, request.seed, b.first, b.row_length});
+    lane += b.row_length;
   }
   worker.outputs.clear();
   for (std::size_t k = 0; k < program.outputs.size(); ++k) worker.outputs.push_back(rows + k * count);
