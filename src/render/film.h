@@ -23,8 +23,10 @@ class FixedSum {
   void add(const FixedSum& other) { sum_ += other.sum_; }
   double value() const { return static_cast<double>(sum_) * 0x1p-64; }
 
- private:
   static constexpr double largest_addend = 0x1p38;
+  static constexpr double fine_addend = 0x1p-40;  // kept to 2^-24 of itself
+
+ private:
   __int128 sum_ = 0;
 };
 

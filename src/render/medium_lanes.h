@@ -32,9 +32,13 @@ class MediumLanes {
       put(vm::Input::p_x, medium_from_render.point(ray.origin), medium_from_render.vector(ray.direction));
     }
     if (needs_world_) put(vm::Input::P_x, ray.origin + world_.origin, ray.direction);
-    if (needs_time_ && samples.count > 0 &&
-        (worker_.lane_times.empty() || worker_.lane_times.back().time != ray.time))
-      worker_.lane_times.push_back({first, ray.time});
+    if (samples.count > 0) set_time(first, ray.time);
+  }
+  // The same for lanes of a medium that is one value for the whole ray: from `first` on they are of this
+  // time.
+  void set_time(std::size_t first, double time) {
+    if (needs_time_ && (worker_.lane_times.empty() || worker_.lane_times.back().time != time))
+      worker_.lane_times.push_back({first, time});
   }
   // Runs the program over `lanes` lanes; output k goes to outputs[k]. Rays of different times are batches of
   // their own when the program reads the time.

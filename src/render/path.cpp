@@ -12,6 +12,7 @@
 #include "render/decisions.h"
 #include "render/emission_light.h"
 #include "render/light_met.h"
+#include "render/light_sum.h"
 #include "render/path_light.h"
 #include "render/path_roulette.h"
 #include "render/path_state.h"
@@ -62,8 +63,12 @@ class PathTracer {
       for (std::size_t i = 0; i < active_; ++i) trace_ray(slot(i));
       propagate(world_, settings_, std::span(worker_.slots).first(active_), worker_);
       const std::size_t before = active_;
-      for (std::size_t i = 0; i < before; ++i) ended_.push_back(!advance(i));
+      for (std::size_t i = 0; i < before; ++i) {
+        ended_.push_back(!advance(i));
+        if (worker_.shadows.size() >= shadows_together) trace_shadows();
+      }
       trace_shadows();
+      trace_emission_rays();
       remove_ended();
     }
     return true;
@@ -207,15 +212,24 @@ class PathTracer {
       if (c->surface.opacity >= 0.5f) meet(c->t, c->surface.normal);
   }
 
+  // Whether light is summed apart before a sample's is.
+  bool sums_apart() const { return settings_.light_samples > 1; }
+
   void trace_shadows() {
+    LightSum sum(radiance_, aovs_), sum_of_higher(radiance_, aovs_);
     for (const ShadowRay& ray :
          worker_.shadows.trace(world_, settings_.transmittance, settings_.orders, worker_)) {
-      radiance_[ray.sample] += ray.contribution + ray.higher;
-      if (!aovs_.empty()) {
-        aovs_[ray.sample].add(ray.part, ray.contribution);
-        aovs_[ray.sample].add(ray.higher_part, ray.higher);
-        aovs_[ray.sample].cost += 1 + ray.segments;
+      if (sums_apart()) {
+        sum.add(ray.sample, ray.part, ray.contribution);
+        sum_of_higher.add(ray.sample, ray.higher_part, ray.higher);
+      } else {
+        radiance_[ray.sample] += ray.contribution + ray.higher;
+        if (!aovs_.empty()) {
+          aovs_[ray.sample].add(ray.part, ray.contribution);
+          aovs_[ray.sample].add(ray.higher_part, ray.higher);
+        }
       }
+      if (!aovs_.empty()) aovs_[ray.sample].cost += 1 + ray.segments;
       if (trace_ && !is_black(ray.contribution))
         say("  + ({:.6g}, {:.6g}, {:.6g}) direct light\n", ray.contribution.x, ray.contribution.y,
             ray.contribution.z);
@@ -223,17 +237,26 @@ class PathTracer {
         say("  + ({:.6g}, {:.6g}, {:.6g}) light scattered further, approximated\n", ray.higher.x,
             ray.higher.y, ray.higher.z);
     }
+    sum.finish();
+    sum_of_higher.finish();
     worker_.shadows.clear();
+  }
+
+  void trace_emission_rays() {
+    LightSum sum(radiance_, aovs_);
     for (const auto& ray : worker_.emission_rays.trace(world_, worker_)) {
-      radiance_[ray->sample] += ray->contribution;
-      if (!aovs_.empty()) {
-        aovs_[ray->sample].add(ray->part, ray->contribution);
-        aovs_[ray->sample].cost += 1 + ray->march.count;
+      if (sums_apart()) {
+        sum.add(ray->sample, ray->part, ray->contribution);
+      } else {
+        radiance_[ray->sample] += ray->contribution;
+        if (!aovs_.empty()) aovs_[ray->sample].add(ray->part, ray->contribution);
       }
+      if (!aovs_.empty()) aovs_[ray->sample].cost += 1 + ray->march.count;
       if (trace_ && !is_black(ray->contribution))
         say("  + ({:.6g}, {:.6g}, {:.6g}) emission of media, sampled\n", ray->contribution.x,
             ray->contribution.y, ray->contribution.z);
     }
+    sum.finish();
     worker_.emission_rays.clear();
   }
 
@@ -368,6 +391,9 @@ class PathTracer {
   // How many paths advance together, at least while there are samples: their segments fill batches of
   // hundreds of lanes. Where no medium varies there are few segments, and more paths would leave the cache.
   std::size_t paths_together() const { return world_.features.heterogeneous ? 192 : 16; }
+
+  // Shadow rays of more paths wait for each other no longer than this.
+  static constexpr std::size_t shadows_together = 1 << 14;
 
   const Sampler& sampler() const { return *path_->sampler; }
   std::uint64_t id(Decision d, const PathState& s) const { return decision(d, s.depth, s.branch); }

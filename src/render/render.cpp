@@ -63,16 +63,34 @@ void sum_into(Statistics& total, const Worker& worker) {
   total.marches += s.marches;
   total.segments += s.segments;
   total.cut_majorants += s.cut_majorants;
-  total.widened_marches += s.widened_marches;
+  total.widened_steps.add_all(s.widened_steps);
+  total.missed_tolerances.add_all(s.missed_tolerances);
   total.cut_paths += s.cut_paths;
   total.cut_throughput += s.cut_throughput;
   total.bad_samples += s.bad_samples;
+  total.clipped_samples += s.clipped_samples;
+  total.light += s.light;
+  total.lost_light += s.lost_light;
   total.vm_runs += worker.machine.counters().runs;
   total.lanes_issued += worker.machine.counters().lanes_issued;
   total.lanes_used += worker.machine.counters().lanes_used;
   total.vm_instructions += worker.machine.counters().instructions;
   const auto& bad = s.first_bad_sample;
   if (bad && (!total.first_bad_sample || *bad < *total.first_bad_sample)) total.first_bad_sample = bad;
+}
+
+// What the film's range loses of a sample.
+void note_film_range(const Rgb& radiance, Statistics& statistics) {
+  const Vec3d light(radiance);
+  statistics.light += std::abs(light.x) + std::abs(light.y) + std::abs(light.z);
+  const double most = std::max({std::abs(light.x), std::abs(light.y), std::abs(light.z)});
+  if (most <= FixedSum::largest_addend && (most == 0 || most >= FixedSum::fine_addend)) return;
+  statistics.clipped_samples += most > FixedSum::largest_addend;
+  for (std::size_t c = 0; c < 3; ++c) {
+    FixedSum kept;
+    kept.add(light[c]);
+    statistics.lost_light += std::abs(light[c] - kept.value());
+  }
 }
 
 // Most samples a pixel when only an error or a time says when to end.
@@ -222,6 +240,7 @@ class Render {
     const int group = static_cast<int>(s.sample % static_cast<std::uint64_t>(settings_.groups));
     if (all_finite(radiance)) {
       film_.add(s.x, s.y, radiance, group);
+      note_film_range(radiance, worker.statistics);
       return;
     }
     film_.add(s.x, s.y, Rgb{}, group);

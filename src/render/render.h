@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/source.h"
@@ -71,13 +72,30 @@ struct BadValue {  // of a shader: what, how often, where
   std::uint64_t count = 0;
 };
 
+// Rays on which something asked for was not reached, and the worst of them.
+struct Shortfall {
+  std::uint64_t rays = 0;
+  double asked = 1, reached = 0;  // reached is greater
+
+  void add(double ray_asked, double ray_reached) { add_all({1, ray_asked, ray_reached}); }
+  void add_all(const Shortfall& other) {
+    const auto badness = [](const Shortfall& s) { return std::pair(s.reached / s.asked, s.reached); };
+    rays += other.rays;
+    if (badness(other) > badness(*this)) asked = other.asked, reached = other.reached;
+  }
+};
+
 // Counters, summed over the threads at the end.
 struct Statistics {
   std::uint64_t samples = 0, rays = 0, shadow_rays = 0, marches = 0, segments = 0;
   std::uint64_t vm_runs = 0, lanes_issued = 0, lanes_used = 0, vm_instructions = 0;
   std::uint64_t bad_samples = 0;
-  std::uint64_t cut_majorants = 0;    // bounds of extinction too great to track through
-  std::uint64_t widened_marches = 0;  // marches whose segments were widened to fit the bound
+  std::uint64_t cut_majorants = 0;  // bounds of extinction too great to track through
+  // Rays that wanted more segments than a ray may have (segment_limit.h): given steps [m] that were widened,
+  // and tolerances that are not proven to be kept.
+  Shortfall widened_steps, missed_tolerances;
+  std::uint64_t clipped_samples = 0;  // brighter than the film can take
+  double light = 0, lost_light = 0;   // of all samples together, and of it what the film's range lost
   std::uint64_t cut_paths = 0;        // paths ended by `bounces` while they still carried light
   double cut_throughput = 0;          // mean over camera samples of the throughput so cut
   struct BadSample {

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "render/segment_limit.h"
 #include "tools/progress.h"
 #include "vm/machine.h"
 
@@ -53,6 +55,22 @@ std::string error_text(double wanted, const render::Statistics& statistics) {
     text += fmt::format(" ({:.0f} % of its square in a few pixels that met rare bright paths: more may come)",
                         100 * statistics.outlier_share);
   return text;
+}
+
+nlohmann::json shortfall_json(const render::Shortfall& shortfall) {
+  nlohmann::json object{{"rays", shortfall.rays}};
+  if (shortfall.rays > 0) object.update({{"asked", shortfall.asked}, {"reached", shortfall.reached}});
+  return object;
+}
+
+// A number rounded up to two digits, as what must not be promised too low.
+std::string rounded_up(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return fmt::format("{:.3g}", std::ceil(value / unit * (1 - 1e-9)) * unit);
+}
+
+std::string counted_rays(std::uint64_t rays) {
+  return fmt::format("{} {}", rays, rays == 1 ? "ray" : "rays");
 }
 
 }  // namespace
@@ -126,13 +144,16 @@ nlohmann::json statistics_json(const scene::Scene& scene, const std::string& sce
       {"marches", s.marches},
       {"segments", s.segments},
       {"cut_majorants", s.cut_majorants},
-      {"widened_marches", s.widened_marches},
+      {"widened_steps", shortfall_json(s.widened_steps)},
+      {"missed_tolerances", shortfall_json(s.missed_tolerances)},
       {"vm",
        {{"runs", s.vm_runs},
         {"instructions", s.vm_instructions},
         {"lanes_issued", s.lanes_issued},
         {"lanes_used", s.lanes_used}}},
       {"bad_samples", s.bad_samples},
+      {"clipped_samples", s.clipped_samples},
+      {"lost_light", s.light > 0 ? s.lost_light / s.light : 0},
       {"bad_values", bad_values_json(s.bad_values, sources)},
       {"cut_paths", s.cut_paths},
       {"cut_throughput", s.cut_throughput},
@@ -181,6 +202,36 @@ void report_run_problems(const RenderArguments& arguments, const render::Statist
   if (statistics.threads_missed > 0)
     diagnostics.warning({}, fmt::format("{} threads could not be had, and {} did the work",
                                         statistics.threads_missed, statistics.threads));
+  if (const render::Shortfall& steps = statistics.widened_steps; steps.rays > 0)
+    diagnostics.warning(
+        {},
+        fmt::format("a step of {:.3g} m wants more than {} segments on {}, and was widened to {:.3g} m",
+                    steps.asked, render::max_segments, counted_rays(steps.rays), steps.reached),
+        fmt::format("what is thinner than that may be missed: `step: auto` puts segments where a medium "
+                    "varies, --method tracking with --transmittance ratio needs none; a step of {} m says "
+                    "that it is meant",
+                    rounded_up(steps.reached)));
+  if (const render::Shortfall& missed = statistics.missed_tolerances; missed.rays > 0)
+    report(
+        {},
+        fmt::format("the tolerance of `step: auto({:.3g}%)` takes more than {} segments on {}, within which "
+                    "{}% is reached",
+                    missed.asked * 100, render::max_segments, counted_rays(missed.rays),
+                    rounded_up(missed.reached * 100)),
+        fmt::format("{}--method tracking with --transmittance ratio needs no segments",
+                    missed.reached < 1
+                        ? fmt::format("`step: auto({}%)` is kept; ", rounded_up(missed.reached * 100))
+                        : "a smaller volume around what varies most takes fewer; "));
+  constexpr double told_film_loss = 0.001;
+  if (statistics.clipped_samples > 0 || statistics.lost_light > told_film_loss * statistics.light)
+    report({},
+           fmt::format("the film keeps samples from 5e-20 to 2.7e11, and lost {:.2g}% of the light: {}",
+                       100 * statistics.lost_light / statistics.light,
+                       statistics.clipped_samples > 0
+                           ? fmt::format("{} {} too bright", statistics.clipped_samples,
+                                         statistics.clipped_samples == 1 ? "sample was" : "samples were")
+                           : "it is too dark"),
+           "light adds up: scale all lights by one factor, and the picture by its inverse");
   if (statistics.cut_majorants > 0)
     diagnostics.warning(
         {},
@@ -204,8 +255,14 @@ std::string summary_line(const RenderArguments& arguments, const scene::Scene& s
     samples = fmt::format("{} samples a pixel{}", range.last - range.first + 1,
                           statistics.stopped ? " wanted, interrupted" : "");
   }
-  return fmt::format("{}: {}x{}, {} in {}, {}samples/s\n", arguments.output, scene.settings.width,
-                     scene.settings.height, samples, duration_text(statistics.seconds), count_text(rate));
+  constexpr double told_cut = 0.01;
+  const std::string cut = statistics.cut_throughput > told_cut
+                              ? fmt::format("; `bounces: {}` cut {:.2g}% of the light",
+                                            scene.settings.bounces, statistics.cut_throughput * 100)
+                              : std::string();
+  return fmt::format("{}: {}x{}, {} in {}, {}samples/s{}\n", arguments.output, scene.settings.width,
+                     scene.settings.height, samples, duration_text(statistics.seconds), count_text(rate),
+                     cut);
 }
 
 }  // namespace tyndall::tools
