@@ -52,13 +52,13 @@ class MajorantGrid {
   // Where a grid holds. Two volumes with the same medium and an equal domain share one.
   struct Domain {
     Bounds box;  // in the medium's space p
-    // Set when the program reads P: where p is in the world; when it moves at the ends of ways, from which
-    // straight lines between them are off by no more than `bend` times the distance from `pivot`.
+    // Set when the program reads P: where p is in the world, at the ends of ways when it moves.
     std::vector<Transform> world_from_medium;
-    double bend = 0;
-    Vec3d pivot{};
     Interval<float> time;     // both ends included: one slab of the shutter, or one moment
     std::uint32_t cells = 0;  // at most, over the whole box
+    // Ways are off from straight lines by no more than `bend` times the distance from `pivot`.
+    double bend = 0;
+    Vec3d pivot{};
   };
 
   // Keeps a reference to the medium. Makes no cells yet.

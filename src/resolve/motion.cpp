@@ -251,11 +251,8 @@ void find_motion(Run& run, SceneAt scene_at) {
   int moments = static_cast<int>(seen.size());
   seen.clear();
   for (std::set<double> wanted = ways.wanted(); !wanted.empty(); wanted = ways.wanted()) {
+    if (moments + static_cast<int>(wanted.size()) > most) break;
     moments += static_cast<int>(wanted.size());
-    if (moments > most) {
-      report_too_fast(run, ways.worst(run.camera), moments - static_cast<int>(wanted.size()));
-      break;
-    }
     for (const double moment : wanted) {
       const std::optional<scene::Scene> now = scene_at(run, moment);
       if (!now) return;
@@ -263,6 +260,8 @@ void find_motion(Run& run, SceneAt scene_at) {
     }
     ways.decide(balls);
   }
+  const Worst worst = ways.worst(run.camera);
+  if (worst.error > 0) report_too_fast(run, worst, moments);
   ways.give_to(run.scene);
 }
 

@@ -114,7 +114,7 @@ double Track<T>::error_between(double a, double b, bool straight, const Balls& b
 
 template <class T>
 void Track<T>::split(double a, double b) {
-  if (b - a < least_time) return;
+  if (b - a < least_time) return void(jumping_ += b - a);
   open_.push_back({a, b});
   for (const double moment : tests_between(a, b)) wanted_.insert(moment);
 }
@@ -124,7 +124,7 @@ void Track<T>::decide(const Balls& balls) {
   std::vector<Intervald> before;
   before.swap(open_);
   wanted_.clear();
-  error_ = 0;
+  if (!before.empty()) error_ = 0;
   for (const auto& [a, b] : before) {
     const double error = error_between(a, b, straight_, balls);
     const auto [c, d] = tests_between(a, b);

@@ -31,8 +31,9 @@ class Track {
   // Once it was looked at at all wanted moments: keeps what is known where a guess is too far off, and wants
   // more there.
   void decide(const Balls& balls);
-  // Where it is still wanted: how far off the guess is, in what is near enough.
-  double error() const { return wanted_.empty() ? 0 : error_; }
+  // How far off guesses are, in what is near enough, where more is wanted or the way jumps all the time; 0
+  // when all are near enough.
+  double error() const { return wanted_.empty() && jumping_ <= most_jumping ? 0 : error_; }
 
   scene::Moving<T> result() const;
   const T& first() const { return known_.begin()->second; }
@@ -51,7 +52,9 @@ class Track {
   std::set<double> keys_{0, 1};
   std::vector<Intervald> open_;
   std::set<double> wanted_;
-  double error_ = 0;
+  double error_ = 0;    // the largest of the last guesses that were too far off
+  double jumping_ = 0;  // the time in which it jumps
+  static constexpr double most_jumping = 1.0 / 64;
 };
 
 }  // namespace tyndall::resolve

@@ -94,7 +94,9 @@ TEST(AdaptiveLaws, ErrorsAreAsTold) {
                   static_cast<double>(result.statistics.samples) / (64 * 36));
     }
     EXPECT_GE(kept, 0.95 * claims) << row.what;
-    if (row.tame) EXPECT_GE(kept, 19) << row.what;
+    if (row.tame) {
+      EXPECT_GE(kept, 19) << row.what;
+    }
   }
 }
 

@@ -44,7 +44,7 @@ scene::Scene at_moment(std::string text, double seconds) {
 
 // Everything turns; in one text so that it is clear that each kind of thing does.
 const std::string turning =
-    "let turn = rotate(360deg * TURNS * time, axis: (1, 2, 0.5))\n"
+    "let turn = rotate((1, 2, 0.5), 360deg * TURNS * time)\n"
     "sphere { center: (1, 0, 0)  transform: turn }\n"
     "group { transform: turn  group { transform: translate((0, 2, 0))  box { min: (-1, -1, -1)  max: (1, 1, "
     "1) } } }\n"
