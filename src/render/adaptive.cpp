@@ -10,7 +10,7 @@ namespace tyndall::render {
 namespace {
 
 // The planned error, of the wanted one: estimates waver, and what is told must hold.
-constexpr double aim = 0.9;
+constexpr double aim = 0.85;
 
 // A block that shows no error of its own is taken to have this part of the picture's.
 constexpr double least_share = 1.0 / 16;

@@ -160,7 +160,7 @@ TEST(Motion, LightsAreMetWhereTheyAreDrawn) {
 TEST(Motion, ManyTurnsMakeAnEvenRing) {
   for (const int turns : {1, 16, 32}) {
     const scene::Scene scene = scene_of(
-        "animation { fps: 1  frames: 0..1  shutter: 360deg }\nrender { resolution: (16, 16)  samples: 64 }\n"
+        "animation { fps: 1  frames: 0..1  shutter: 360deg }\nrender { resolution: (16, 16)  samples: 128 }\n"
         "camera orthographic { from: (0, 0, 5)  to: (0, 0, 0)  height: 4 }\n"
         "quad { center: (1, 0, 0)  u: (0.3, 0, 0)  v: (0, 0.1, 0)  material: { base_color = 0  emission = 1 "
         "}  "
