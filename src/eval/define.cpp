@@ -297,6 +297,13 @@ bool Evaluator::define(const SyntaxTree& tree, const Item& item, const std::shar
   } else if (const auto* function = std::get_if<FunctionItem>(&item.node)) {
     check_parameters(tree, function->parameters, nullptr);
     check_definition(*this, tree, item, scope);
+    if (function->value.valid() && function->steps.valid()) {
+      const Span& steps = tree[function->steps].span;
+      const std::string_view name = text(function->name.symbol);
+      error({steps.source, steps.begin, steps.begin + 1},
+            fmt::format("'=' is missing before the steps of '{}', which returns a value", name),
+            fmt::format("write def {}(…) = {{ … }}; without '=' it is a template that places things", name));
+    }
     add(function->name, Value::of_heavy(Type::function, Function{&tree, &item, scope}),
         BindingKind::constant);
   } else if (const auto* form = std::get_if<TemplateItem>(&item.node)) {

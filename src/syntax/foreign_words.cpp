@@ -70,7 +70,6 @@ constexpr ForeignWord statements[] = {
     {"rectangle", "write quad { center: … u: … v: … }"},
     {"rect", "write quad { center: … u: … v: … }"},
     {"circle", "write disk { center: … normal: … radius: … }"},
-    {"disc", "write disk { center: … normal: … radius: … }"},
     {"sphere_sweep", round_tube},
     {"capsule", round_tube},
     {"tube", round_tube},

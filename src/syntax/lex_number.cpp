@@ -55,11 +55,12 @@ struct Decimal {
   }
 };
 
-std::string unit_help(std::string_view suffix) {
+std::string unit_help(std::string_view digits, std::string_view suffix) {
   const auto is_hex = [](char c) {
     return std::string_view("0123456789abcdefABCDEF").find(c) != std::string_view::npos;
   };
-  if (suffix.size() > 1 && suffix[0] == 'x' && std::all_of(suffix.begin() + 1, suffix.end(), is_hex))
+  if (digits == "0" && suffix.size() > 1 && suffix[0] == 'x' &&
+      std::all_of(suffix.begin() + 1, suffix.end(), is_hex))
     return suffix.size() == 7 ? fmt::format("a colour is written #{}", suffix.substr(1))
                               : "numbers are decimal";
   if (const std::string_view help = help_for_foreign_word(ForeignUse::unit, suffix); !help.empty())
@@ -124,7 +125,7 @@ void Lexer::number() {
     if (found == nullptr) {
       const std::string_view shown = suffix.substr(0, 40);
       diagnostics_.error({source_, unit_begin, at_}, fmt::format("'{}' is not a unit", shown),
-                         unit_help(suffix));
+                         unit_help(text_.substr(begin, unit_begin - begin), suffix));
       emit(TokenKind::error, begin);
       return;
     }

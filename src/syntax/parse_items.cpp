@@ -106,15 +106,11 @@ std::optional<Parser::ItemNode> Parser::def_item() {
   }
   const bool python = at(TokenKind::colon) && (kind(1) == TokenKind::kw_return || first_on_line(at_ + 1));
   if (at(TokenKind::left_brace) || python || panic_) {
-    const Span open = peek().span;
     const BlockId body = block(BlockPlace::file, fmt::format("'{}'", text(*name)));
     if (!gives_value(body)) return TemplateItem{*name, list, body};
-    if (!python)
-      note_mistake(open,
-                   fmt::format("'=' is missing before the steps of '{}', which returns a value", text(*name)),
-                   fmt::format("write def {}(…) = {{ … }}; without '=' it is a template that places things",
-                               text(*name)));
-    return FunctionItem{*name, list, {}, body};
+    // Without '=' it is a template by the grammar; a value beside the steps tells whoever defines it.
+    const ExprId mistaken = python ? ExprId{} : error_expr();
+    return FunctionItem{*name, list, mistaken, body};
   }
   if (at(TokenKind::colon)) {
     note_mistake(take().span, "a function is defined with '='");
