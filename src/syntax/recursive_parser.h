@@ -45,6 +45,7 @@ class Parser {
   void items(std::vector<ItemId>& out, const std::optional<Span>& open);
   BlockId add_block(std::uint32_t first_token, const std::vector<ItemId>& list, std::uint32_t outer_tallest);
   bool open_block(std::string_view owner);
+  void read_item(std::vector<ItemId>& out);
   void never_closed(const Span& open);
   void note_unread_definition(std::uint32_t first_token);
   std::size_t indentation(const Span& place) const;
@@ -78,6 +79,22 @@ class Parser {
   ItemNode parameter_without_colon(const Name& name);
   bool begins_body() const;
   std::optional<ItemNode> include_without_quotes();
+  // parse_habits.cpp: what POV-Ray and Python users write
+  bool skip_directive();
+  void skip_line();
+  bool gives_value(BlockId block) const;
+  BlockId indented_block(BlockPlace place, std::string_view owner);
+  bool statement_of_others(const Name& keyword);
+  bool begins_thing() const;
+  Unit parted_unit(const Token& number, double& value);
+  bool vector_word(const Name& name) const;
+  ExprId braces_of_no_body();
+  PlaceItem placed_without_braces(const Name& name);
+  struct ForeignStatement {
+    Span place;
+    std::string_view word, help;
+  };
+  std::optional<ForeignStatement> foreign_statement_around() const;
 
   // parse_operators.cpp
   ExprId expression();
