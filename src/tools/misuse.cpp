@@ -63,7 +63,7 @@ std::string help_line(const CLI::App& program, const CLI::App& command) {
 
 std::string explain_misuse(const CLI::App& program, const CLI::ParseError& error) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
-  const CLI::App& command = chosen.empty() ? program : *chosen.front();
+  const CLI::App& command = chosen.empty() || !program.remaining().empty() ? program : *chosen.front();
   const std::vector<std::string> unread = command.remaining();
   const auto option = std::find_if(unread.begin(), unread.end(),
                                    [](const std::string& word) { return word.starts_with('-'); });

@@ -150,7 +150,7 @@ TEST_F(Commands, AFrameOutsideOfTheAnimationIsTold) {
     const Outcome outcome = tyndall({"check", scene, "--frame", frame});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_NE(
-        outcome.err.find("a.tyn:12:31: warning: --frame " + frame + " is outside of these frames, 10 to 20"),
+        outcome.err.find("a.tyn:12:29: warning: --frame " + frame + " is outside of these frames, 10 to 20"),
         std::string::npos)
         << outcome.err;
   }
