@@ -29,6 +29,7 @@ double op_cost(Op op, std::uint8_t octaves) {
     case Op::add_mul:
     case Op::sub_mul:
     case Op::clamp:
+    case Op::limit:
     case Op::not_equal:
     case Op::select:
     case Op::checker:

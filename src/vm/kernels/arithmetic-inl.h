@@ -76,6 +76,7 @@ TYNDALL_VM_KERNEL4(dot2) { return a * b + c * d; }
 TYNDALL_VM_KERNEL2(min) { return min_of(a, b); }
 TYNDALL_VM_KERNEL2(max) { return max_of(a, b); }
 TYNDALL_VM_KERNEL3(clamp) { return min_of(max_of(a, b), c); }
+TYNDALL_VM_KERNEL3(limit) { return op_clamp(options, select(a == a, a, V(0.0f)), b, c); }
 TYNDALL_VM_KERNEL1(abs) { return abs(a); }
 TYNDALL_VM_KERNEL1(floor) { return floor(a); }
 TYNDALL_VM_KERNEL1(ceil) { return ceil(a); }

@@ -164,6 +164,11 @@ TYNDALL_VM_BOUND4(dot2) { return sum_of(product_of(a, b), product_of(c, d)); }
 TYNDALL_VM_BOUND2(min) { return {lesser(a.lo, b.lo), lesser(a.hi, b.hi), either(a.nan, b.nan)}; }
 TYNDALL_VM_BOUND2(max) { return {greater(a.lo, b.lo), greater(a.hi, b.hi), either(a.nan, b.nan)}; }
 TYNDALL_VM_BOUND3(clamp) { return bound_min(options, bound_max(options, a, b), c); }
+TYNDALL_VM_BOUND3(limit) {
+  const Bound<V> number = {select(a.nan, lesser(a.lo, V(0.0f)), a.lo),
+                           select(a.nan, greater(a.hi, V(0.0f)), a.hi), never(a.lo)};
+  return bound_clamp(options, number, b, c);
+}
 TYNDALL_VM_BOUND1(abs) { return size_of(a); }
 TYNDALL_VM_BOUND1(floor) { return {floor(a.lo), floor(a.hi), a.nan}; }
 TYNDALL_VM_BOUND1(ceil) { return {ceil(a.lo), ceil(a.hi), a.nan}; }
