@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/overloaded.h"
+#include "compile/coarse_fields.h"
 #include "compile/emitters.h"
 #include "compile/geometry.h"
 #include "compile/hit_error.h"
@@ -66,10 +67,18 @@ CompiledMedium compiled(const scene::Medium& medium) {
     for (std::size_t c = 0; c < 3; ++c) sigma_t[c] = program.constants[program.outputs[outputs[c]]];
     if (all_finite(sigma_t) && min_component(sigma_t) >= 0) out.constant_sigma_t = sigma_t;
   }
-  out.may_be_negative.assign(medium.full.outputs.size(), false);
-  for (const scene::PhaseLobe& lobe : medium.phase)
+  out.uses.assign(medium.full.outputs.size(), OutputUse::shown);
+  const auto mark = [&](const scene::RgbOutputs& which) {
+    for (const std::uint8_t k : which) out.uses[k] = OutputUse::coefficient;
+  };
+  for (const scene::PhaseLobe& lobe : medium.phase) {
     for (const auto& parameter : lobe.parameters)
-      if (parameter.output) out.may_be_negative[*parameter.output] = true;
+      if (parameter.output) out.uses[*parameter.output] = OutputUse::parameter;
+    if (lobe.weight.output) out.uses[*lobe.weight.output] = OutputUse::parameter;
+  }
+  mark(medium.sigma_t);
+  mark(medium.sigma_s);
+  if (medium.emission) mark(*medium.emission);
   return out;
 }
 
@@ -94,8 +103,12 @@ CompiledMaterial compiled(const scene::Material& material, double time) {
   out.opaque = !material.opacity;
   out.transmits = material.transmission.has_value();
   if (material.ior) {
-    const float ior = uniform_value(material.program, *material.ior, time);
-    if (ior >= 1 && std::isfinite(ior)) out.ior = ior;  // else a function of time has left the range
+    out.ior = uniform_value(material.program, *material.ior, time);
+    const scene::GivenNumber& given = material.given[*material.ior];
+    if (const double ior = out.ior; !given.name.empty() && !(ior >= given.lowest && ior <= given.highest)) {
+      out.bad_ior = static_cast<float>(ior);  // a function of time has left the range
+      out.ior = std::isnan(ior) ? given.lowest : std::clamp(ior, given.lowest, given.highest);
+    }
   }
   return out;
 }
@@ -286,6 +299,7 @@ CompiledScene compile(scene::Scene scene) {
   if (world.features.layered_surfaces)
     world.albedo_tables = std::make_unique<const optics::AlbedoTables>(rough_etas(world));
   add_grids(world);
+  world.coarse_fields = find_coarse_fields(world);
   return world;
 }
 

@@ -90,14 +90,18 @@ struct CompiledMaterial {
   bool opaque = true;  // no opacity
   bool transmits = false;
   double ior = 1.5;
+  std::optional<float> bad_ior{};  // set: what the program gave at the scene's time is out of range
 };
+
+// What an output of a medium's full program is for.
+enum class OutputUse : std::uint8_t { shown, coefficient, parameter };
 
 // What marching asks of a medium besides its programs.
 struct CompiledMedium {
   bool homogeneous = false;             // one value for the whole ray: closed forms
   bool constant = false;                // and the same for all rays: no program need run at all
   std::optional<Rgb> constant_sigma_t;  // set when no program need run for transmittance [1/m]
-  std::vector<bool> may_be_negative;    // per output of the full program: the parameters of phase lobes
+  std::vector<OutputUse> uses;          // per output of the full program
 };
 
 // Of a body of glass: higher ones win; of equals the one that stands later in the scene.
@@ -149,6 +153,13 @@ class LightAt {
   std::optional<optics::Light> moved_;
 };
 
+// A field of a lattice that a shader asks for at places as far from 0 as `reach` (coarse_fields.h).
+struct CoarseField {
+  std::string shader, name;
+  Span span;
+  float reach = 0;
+};
+
 class Geometry;      // Embree, behind geometry.cpp
 class Solids;        // solids.h
 class MajorantGrid;  // majorant_grid.h
@@ -175,6 +186,7 @@ class CompiledScene {
   std::unique_ptr<Geometry> geometry;
   std::unique_ptr<const Solids> solids;              // when Features::nested_glass or volumes have priorities
   std::vector<std::unique_ptr<MajorantGrid>> grids;  // of volumes whose medium varies; see grid_walk.h
+  std::vector<CoarseField> coarse_fields;
 
   // The nearest surface (shape or visible area light) behind `after` and before ray.t_max, if any.
   std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind, const HitOrder& after = {}) const;

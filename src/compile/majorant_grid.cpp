@@ -258,8 +258,14 @@ CellBounds MajorantGrid::summary(std::size_t first, std::size_t count, std::size
   bool empty = true, uniform = true;
   for (const std::uint8_t k : coefficients_) {
     const vm::ValueBounds v = whole(k);
-    empty &=
-        !v.may_be_nan && v.lo == 0 && v.hi == 0;  // what is clamped to 0 is reported, so it is not skipped
+    empty &= !v.may_be_nan && v.lo == 0 && v.hi == 0;
+  }
+  // What is limited to 0 is told, so it is not skipped.
+  for (const scene::GivenNumber& given : medium_.given) {
+    if (!empty) break;
+    if (!given.scales) continue;
+    const vm::ValueBounds v = whole(given.output);
+    empty &= !v.may_be_nan && (v.lo >= 0 || v.hi > 0);
   }
   cell.minorant = largest_coefficient;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -24,8 +24,7 @@
 
 namespace tyndall::compile {
 
-// Shaders give no more than this; larger values are taken for infinite.
-inline constexpr float largest_coefficient = 1e30f;
+using scene::largest_coefficient;
 
 // What is proven about a cell. Empty: extinction, scattering and emission are all exactly 0, and no value is
 // bad. Uniform: every output of the program is one value to rounding.

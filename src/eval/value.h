@@ -82,6 +82,7 @@ struct PhaseLobe {
   enum class Kind : std::uint8_t { isotropic, rayleigh, hg, draine, droplets } kind{};
   std::array<Scalar, 2> parameters{};  // hg: g; draine: g, a; droplets: diameter [m]
   Scalar weight{1};
+  std::vector<Scalar> shares{};  // of mixtures that it is in, as given: those that are not known
 };
 
 struct ShapeLiteral {  // evaluated by resolve

@@ -185,8 +185,7 @@ void evaluate_batch(const CompiledScene& world, std::span<const MarchRequest> re
   worker.outputs.clear();
   for (std::size_t k = 0; k < program.outputs.size(); ++k) worker.outputs.push_back(rows + k * count);
   lanes.run(count, worker.outputs);
-  for (std::size_t k = 0; k < worker.outputs.size(); ++k)
-    clamp_bad_values(worker.outputs[k], count, world.media[medium].may_be_negative[k], medium, k, worker);
+  limit_outputs(world, medium, worker.outputs, count, worker);
 }
 
 // Runs the programs over the new blocks: one batch a medium.

@@ -79,6 +79,16 @@ void sum_into(Statistics& total, const Worker& worker) {
   if (bad && (!total.first_bad_sample || *bad < *total.first_bad_sample)) total.first_bad_sample = bad;
 }
 
+// Indices of refraction are found out when the scene is compiled.
+void note_bad_iors(const CompiledScene& world, BadValueCounts& counts) {
+  for (std::uint32_t i = 0; i < world.materials.size(); ++i)
+    if (const auto ior = world.materials[i].bad_ior)
+      counts.add_material(i, *world.scene.materials[i].ior,
+                          std::isnan(*ior) ? BadValue::Kind::undefined
+                          : *ior < 1       ? BadValue::Kind::below
+                                           : BadValue::Kind::above);
+}
+
 // What the film's range loses of a sample.
 void note_film_range(const Rgb& radiance, Statistics& statistics) {
   const Vec3d light(radiance);
@@ -277,7 +287,11 @@ class Render {
       bad_values.add_all(worker->bad_values);
     }
     if (total.samples > 0) total.cut_throughput /= static_cast<double>(total.samples);
+    note_bad_iors(world_, bad_values);
     total.bad_values = bad_values.list(world_.scene);
+    for (const compile::CoarseField& field : world_.coarse_fields)
+      total.bad_values.push_back(
+          {BadValue::Kind::coarse, field.span, field.shader, 0, field.name, 0, double{field.reach}});
     total.seconds = seconds();
     total.stopped = stopped();
     total.out_of_time = out_of_time_;

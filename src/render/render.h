@@ -66,10 +66,14 @@ struct Progress {
 };
 
 struct BadValue {  // of a shader: what, how often, where
-  enum class Kind : std::uint8_t { not_finite, negative } kind{};
+  // coarse: a field of a lattice at places as far from 0 as `highest` (compile::CoarseField).
+  enum class Kind : std::uint8_t { undefined, below, above, coarse } kind{};
   Span span;           // the output's statement
   std::string shader;  // name of the medium or material
   std::uint64_t count = 0;
+  std::string output{};                       // its name, or that of a parameter; empty: a coefficient
+  double lowest = 0, highest = 0;             // what it is limited to; undefined ones are 0, limited
+  std::optional<std::string_view> instead{};  // what is taken instead, where it is no number
 };
 
 // Rays on which something asked for was not reached, and the worst of them.

@@ -9,14 +9,17 @@ namespace tyndall::render {
 
 namespace {
 
-float clamped(float v, float highest, std::uint32_t material, std::size_t output, Worker& worker) {
-  if (v >= 0 && v <= largest_value) return std::min(v, highest);
-  worker.bad_values.add_material(
-      material, output, v < 0 && v >= -largest_value ? BadValue::Kind::negative : BadValue::Kind::not_finite);
+// Within [0, highest], undefined values as 0; others are counted.
+float limited(float v, float highest, std::uint32_t material, std::size_t output, Worker& worker) {
+  if (v >= 0 && v <= highest) return v;
+  worker.bad_values.add_material(material, output,
+                                 std::isnan(v) ? BadValue::Kind::undefined
+                                 : v < 0       ? BadValue::Kind::below
+                                               : BadValue::Kind::above);
   return v > 0 ? highest : 0.0f;
 }
 
-// Outputs of a material's program at a hit, clamped to what the renderer can take.
+// Outputs of a material's program at a hit, limited to what the renderer can take.
 class MaterialAt {
  public:
   MaterialAt(const compile::CompiledScene& world, const compile::SurfaceHit& hit, Worker& worker)
@@ -52,12 +55,12 @@ class MaterialAt {
 
   float number(const std::optional<std::uint8_t>& output, float standard) const {
     if (!output) return standard;
-    return clamped(worker_.material_outputs[*output], 1.0f, index_, *output, worker_);
+    return limited(worker_.material_outputs[*output], 1.0f, index_, *output, worker_);
   }
   Rgb color(const scene::RgbOutputs& outputs, float highest) const {
     Rgb c;
     for (std::size_t k = 0; k < 3; ++k)
-      c[k] = clamped(worker_.material_outputs[outputs[k]], highest, index_, outputs[k], worker_);
+      c[k] = limited(worker_.material_outputs[outputs[k]], highest, index_, outputs[k], worker_);
     return c;
   }
   // A direction of any length; zero where it is not finite.
@@ -65,7 +68,7 @@ class MaterialAt {
     Vec3d v;
     for (std::size_t k = 0; k < 3; ++k) v[k] = double{worker_.material_outputs[outputs[k]]};
     if (all_finite(v)) return v;
-    worker_.bad_values.add_material(index_, outputs[0], BadValue::Kind::not_finite);
+    worker_.bad_values.add_material(index_, outputs[0], BadValue::Kind::undefined);
     return {};
   }
 

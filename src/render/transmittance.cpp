@@ -238,11 +238,7 @@ void ShadowBatch::march_stays(const compile::CompiledScene& world, Worker& worke
       worker.outputs.push_back(values_.data() + k * count);
     lanes.run(count, worker.outputs);
     worker.statistics.segments += count;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint8_t output = medium.extinction_sigma_t[c];
-      if (c > 0 && output == medium.extinction_sigma_t[c - 1]) continue;
-      clamp_bad_values(worker.outputs[output], count, false, first->medium, medium.sigma_t[c], worker);
-    }
+    limit_extinction(world, first->medium, worker.outputs, count, worker);
     lane = 0;
     Vec3d tau;
     for (auto s = first; s != last; lane += s->count, ++s)

@@ -156,7 +156,8 @@ void add_running_options(CLI::App& command, RenderArguments& arguments) {
                   "Write times and counts of the run to this file, as JSON")
       ->option_text("FILE.json");
   command.add_flag("--strict", arguments.strict,
-                   "Make values of shaders that are no numbers or negative an error");
+                   "Make values of shaders out of their range, a tolerance that is not kept and light that the "
+                   "film loses an error");
   command.add_flag("--profile", arguments.profile,
                    "Print the share of each source line in the shaders' time");
   command.add_flag("--quiet", arguments.quiet, "Say nothing but errors and warnings");

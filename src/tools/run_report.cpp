@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -31,12 +32,25 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+std::string_view kind_name(render::BadValue::Kind kind) {
+  switch (kind) {
+    case render::BadValue::Kind::undefined:
+      return "undefined";
+    case render::BadValue::Kind::below:
+      return "below";
+    case render::BadValue::Kind::above:
+      return "above";
+    case render::BadValue::Kind::coarse:
+      return "coarse";
+  }
+  return {};
+}
+
 nlohmann::json bad_values_json(const std::vector<render::BadValue>& bad_values, const Sources& sources) {
   nlohmann::json list = nlohmann::json::array();
   for (const render::BadValue& bad : bad_values) {
-    nlohmann::json object{{"kind", bad.kind == render::BadValue::Kind::negative ? "negative" : "not finite"},
-                          {"in", bad.shader},
-                          {"count", bad.count}};
+    nlohmann::json object{{"kind", kind_name(bad.kind)}, {"in", bad.shader}, {"count", bad.count}};
+    if (!bad.output.empty()) object["output"] = bad.output;
     if (bad.span.valid()) {
       const Source& source = sources[bad.span.source];
       object["file"] = source.name();
@@ -61,6 +75,36 @@ nlohmann::json shortfall_json(const render::Shortfall& shortfall) {
   nlohmann::json object{{"rays", shortfall.rays}};
   if (shortfall.rays > 0) object.update({{"asked", shortfall.asked}, {"reached", shortfall.reached}});
   return object;
+}
+
+// What is told of a shader's bad values, and the way out.
+std::pair<std::string, std::string> text_of(const render::BadValue& bad) {
+  const std::string output = bad.output.empty() ? "of a coefficient" : fmt::format("of '{}'", bad.output);
+  const auto told = [&](const std::string& what, const std::string& taken_as) {
+    return fmt::format("'{}' gave {} {} {} here, taken as {}", bad.shader, bad.count,
+                       bad.count == 1 ? "value" : "values", output + what, taken_as);
+  };
+  const std::string lowest = fmt::format("{}", bad.lowest), highest = fmt::format("{}", bad.highest);
+  switch (bad.kind) {
+    case render::BadValue::Kind::undefined:
+      return {told(" that are no numbers", bad.instead
+                                               ? std::string(*bad.instead)
+                                               : fmt::format("{}", std::clamp(0.0, bad.lowest, bad.highest))),
+              "look for 0/0, or a root or logarithm of a negative number"};
+    case render::BadValue::Kind::below:
+      return {told(" below " + lowest, lowest), fmt::format("max({}, …) says that it is meant", lowest)};
+    case render::BadValue::Kind::above:
+      if (bad.highest >= double{scene::largest_coefficient})
+        return {told(" that are infinite or above 1e30", "1e30"), "look for a division by zero"};
+      return {told(" above " + highest, highest), fmt::format("min({}, …) says that it is meant", highest)};
+    case render::BadValue::Kind::coarse:
+      return {fmt::format("'{}' asks for '{}' here at places as far out as {:.2g}, where numbers are {:.2g} "
+                          "apart: from 8e6 on it is constant",
+                          bad.shader, bad.output, bad.highest,
+                          std::exp2(std::floor(std::log2(bad.highest)) - 23)),
+              "subtract a place near by before it is scaled, or scale by less"};
+  }
+  return {};
 }
 
 // A number rounded up to two digits, as what must not be promised too low.
@@ -181,12 +225,11 @@ void report_run_problems(const RenderArguments& arguments, const render::Statist
     }
   };
   for (const render::BadValue& bad : statistics.bad_values) {
-    const bool negative = bad.kind == render::BadValue::Kind::negative;
-    report(bad.span,
-           fmt::format("'{}' gave {} {} {} here, taken as 0", bad.shader, bad.count,
-                       negative ? "negative" : "infinite or undefined", bad.count == 1 ? "value" : "values"),
-           negative ? "max(0, …) says that it is meant"
-                    : "look for a division by zero, or a root or logarithm of a negative number");
+    const auto [message, help] = text_of(bad);
+    if (bad.kind == render::BadValue::Kind::coarse)
+      diagnostics.warning(bad.span, message, help);
+    else
+      report(bad.span, message, help);
   }
   if (const auto& first = statistics.first_bad_sample)
     report({},

@@ -41,7 +41,8 @@ Range range_of(const std::vector<Node>& nodes, NodeId id, int depth) {
   if (op_info(node.op).has(OpTrait::fraction)) return {0, 1};
   if (node.op == Op::min) return least_of(operand(0), operand(1));
   if (node.op == Op::max) return largest_of(operand(0), operand(1));
-  if (node.op == Op::clamp) return least_of(largest_of(operand(0), operand(1)), operand(2));
+  if (node.op == Op::clamp || node.op == Op::limit)
+    return least_of(largest_of(operand(0), operand(1)), operand(2));
   if (node.op == Op::floor) return {std::floor(operand(0).lo), std::floor(operand(0).hi)};
   if (node.op == Op::ceil) return {std::ceil(operand(0).lo), std::ceil(operand(0).hi)};
   if (node.op == Op::neg) return {-operand(0).hi, -operand(0).lo};

@@ -23,6 +23,7 @@ struct OpTrait {
     plane = 16,       // Instruction::immediate is the index of one of the program's planes
     float_only = 32,  // hashes the bits of floats, or reads a table: has no form in double
     fraction = 64,    // its results are in [0, 1]
+    lattice = 128,    // made of a lattice of whole coordinates, which floats lose far from the origin
   };
 };
 

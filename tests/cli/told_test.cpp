@@ -1,4 +1,4 @@
-// What is told after a render of limits that were met. Each once, and to programs too.
+// What is told after a render: numbers out of range, limits that were met. Each once, in the statistics too.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -52,14 +52,37 @@ TEST_P(ToldAfterARender, OnceAtItsPlace) {
 
 INSTANTIATE_TEST_SUITE_P(
     Rows, ToldAfterARender,
-    testing::Values(Row{"WidenedStep",
-                        "volume { in: box { min: (-1, -1, -1)  max: (1, 1, 1) }  step: 1e-5  medium: {\n"
-                        "  density = 1 + 0.5 * sin(40 * p.z)\n  albedo = 0 } }\n",
-                        "", "a step of 1e-05 m wants more than 4096 segments", false},
-                    Row{"MissedTolerance",
-                        "volume { in: box { min: (-1, -1, 0)  max: (1, 1, 1) }  step: auto(0.1%)  medium: {\n"
-                        "  density = 1200 * exp(-((p.z - 0.3217) / 0.0015)^2)\n  albedo = 0 } }\n",
-                        "", "the tolerance of `step: auto(0.1%)` takes more than 4096 segments", true}),
+    testing::Values(
+        Row{"AlbedoAboveOne",
+            "volume { in: sphere {}  medium: {\n  density = 20\n  albedo = 1 + 0.1 * p.x^2 } }\n", "6:3",
+            "values of 'albedo' above 1 here, taken as 1", true},
+        Row{"InfiniteDensity",
+            "volume { in: sphere {}  medium: {\n  density = 1 / (p.x - p.x)\n  scattering = 0\n  absorption "
+            "= 1 } }\n",
+            "5:3", "values of 'density' that are infinite or above 1e30 here, taken as 1e30", true},
+        Row{"UndefinedDensity",
+            "volume { in: sphere {}  medium: {\n  density = sqrt(-1 - p.x^2)\n  albedo = 0.5 } }\n", "5:3",
+            "values of 'density' that are no numbers here, taken as 0", true},
+        Row{"NegativeDensity", "volume { in: sphere {}  medium: {\n  density = p.x\n  albedo = 0.5 } }\n",
+            "5:3", "values of 'density' below 0 here, taken as 0", true},
+        Row{"PhaseParameter",
+            "volume { in: sphere {}  medium: {\n  albedo = 0.5\n  phase = hg(2 * p.z + 3) } }\n", "6:3",
+            "values of 'g of hg' above 0.9999 here, taken as 0.9999", true},
+        Row{"Roughness", "sphere { material: {\n  base_color = 0.5\n  roughness = 2 * abs(p.x) } }\n", "6:3",
+            "values of 'roughness' above 1 here, taken as 1", true},
+        Row{"InfiniteEmission", "sphere { material: {\n  base_color = 0\n  emission = exp(100 + p.x) } }\n",
+            "6:3", "values of 'emission' that are infinite", true},
+        Row{"NoiseFarOut",
+            "volume { in: sphere {}  medium: {\n  density = 0.1 + 0.01 * fbm(p * 3e7)\n  albedo = 0.5 } }\n",
+            "5:24", "'fbm' here at places as far out as 3e+07, where numbers are 2 apart", false},
+        Row{"WidenedStep",
+            "volume { in: box { min: (-1, -1, -1)  max: (1, 1, 1) }  step: 1e-5  medium: {\n"
+            "  density = 1 + 0.5 * sin(40 * p.z)\n  albedo = 0 } }\n",
+            "", "a step of 1e-05 m wants more than 4096 segments", false},
+        Row{"MissedTolerance",
+            "volume { in: box { min: (-1, -1, 0)  max: (1, 1, 1) }  step: auto(0.1%)  medium: {\n"
+            "  density = 1200 * exp(-((p.z - 0.3217) / 0.0015)^2)\n  albedo = 0 } }\n",
+            "", "the tolerance of `step: auto(0.1%)` takes more than 4096 segments", true}),
     [](const auto& named) { return named.param.name; });
 
 TEST_F(Told, LightThatBouncesCutIsToldAboveOnePercent) {

@@ -133,9 +133,9 @@ TEST_P(BadShader, IsClampedCountedAndNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Extremes, BadShader,
-                         testing::Values(Misbehaviour{"NaN", NAN, render::BadValue::Kind::not_finite},
-                                         Misbehaviour{"Infinity", INFINITY, render::BadValue::Kind::not_finite},
-                                         Misbehaviour{"Negative", -2, render::BadValue::Kind::negative}),
+                         testing::Values(Misbehaviour{"NaN", NAN, render::BadValue::Kind::undefined},
+                                         Misbehaviour{"Infinity", INFINITY, render::BadValue::Kind::above},
+                                         Misbehaviour{"Negative", -2, render::BadValue::Kind::below}),
                          [](const auto& named) { return named.param.name; });
 
 }  // namespace

@@ -115,6 +115,7 @@ TEST(Intervals, AreTightInSmallBoxes) {
       {Op::smoothstep, {at(1), at(0.4f), around(0.7f, 0.03f)}, 0.151f},  // slope 1.5 / 0.6
       {Op::mix, {at(1), at(2), around(0.5f, 0.1f)}, 0.2001f},
       {Op::clamp, {around(2, 0.5f), at(0), at(1)}, 0},
+      {Op::limit, {ValueBounds{-inf, inf, true}, at(0), at(1)}, 1},
       {Op::pow, {around(0.5f, 0.1f), at(2)}, 0.2001f},
       {Op::length3, {around(1, 0.01f), around(2, 0.01f), around(2, 0.01f)}, 0.0334f},
       {Op::mul, {around(-1, 0.1f), around(2, 0.1f)}, 0.61f},

@@ -84,6 +84,13 @@ TYNDALL_VM_KERNEL2(max) { return max_of(a, b); }
 TYNDALL_VM_BOUND2(max) { return {greater(a.lo, b.lo), greater(a.hi, b.hi), either(a.nan, b.nan)}; }
 TYNDALL_VM_KERNEL3(clamp) { return min_of(max_of(a, b), c); }
 TYNDALL_VM_BOUND3(clamp) { return bound_min(options, bound_max(options, a, b), c); }
+// A number for whatever comes: NaN counts as 0.
+TYNDALL_VM_KERNEL3(limit) { return op_clamp(options, select(a == a, a, V(0.0f)), b, c); }
+TYNDALL_VM_BOUND3(limit) {
+  const Bound<V> number = {select(a.nan, lesser(a.lo, V(0.0f)), a.lo),
+                           select(a.nan, greater(a.hi, V(0.0f)), a.hi), never(a.lo)};
+  return bound_clamp(options, number, b, c);
+}
 TYNDALL_VM_KERNEL1(abs) { return abs(a); }
 TYNDALL_VM_BOUND1(abs) { return size_of(a); }
 TYNDALL_VM_KERNEL1(floor) { return floor(a); }
