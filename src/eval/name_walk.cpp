@@ -247,31 +247,37 @@ class NameCheck {
   void call(const SyntaxTree& tree, const CallExpr& call, const SymbolStack& locals) const {
     const auto* callee = std::get_if<NameExpr>(&tree[call.callee].node);
     if (!callee || locals.contains(callee->symbol)) return;
+    const Binding* binding = scope_->find(callee->symbol);
+    const BuiltinEntry* builtin = binding ? nullptr : ev_.names().builtin(callee->symbol);
     const auto arguments = tree.list_of_arguments(call.arguments);
     const auto is_named = [](const Argument& argument) { return argument.name.symbol.valid(); };
-    if (std::none_of(arguments.begin(), arguments.end(), is_named)) return;
+    if (std::any_of(arguments.begin(), arguments.end(), is_named))
+      named_arguments(arguments, ev_.text(callee->symbol), binding, builtin);
+    if (builtin && !builtin->free) options_have_names(tree, call, *builtin->row);
+  }
+
+ private:
+  void named_arguments(std::span<const Argument> arguments, std::string_view callee, const Binding* binding,
+                       const BuiltinEntry* builtin) const {
     std::vector<std::string_view> names;
     Span definition;
-    const BuiltinEntry* builtin = nullptr;
-    if (const Binding* binding = scope_->find(callee->symbol)) {
+    if (binding) {
       const std::optional<Declared> declared = parameters_of(binding->value);
       if (!declared) return;
       const auto parameters = declared->tree->list_of_parameters(declared->parameters);
       names = parameter_names(ev_, parameters);
       if (!parameters.empty()) definition = parameters[0].name.span;
-    } else if ((builtin = ev_.names().builtin(callee->symbol)) != nullptr) {
+    } else if (builtin) {
       for (const vm::BuiltinParameter& parameter : builtin->row->parameters) names.push_back(parameter.name);
     } else {
       return;
     }
     const std::unordered_set<std::string_view> known(names.begin(), names.end());
     for (const Argument& argument : arguments)
-      if (is_named(argument) && !known.contains(ev_.text(argument.name.symbol)))
-        report_unknown_parameter(ev_, ev_.text(callee->symbol), argument.name, names, definition);
-    if (builtin && !builtin->free) options_have_names(tree, call, *builtin->row);
+      if (argument.name.symbol.valid() && !known.contains(ev_.text(argument.name.symbol)))
+        report_unknown_parameter(ev_, callee, argument.name, names, definition);
   }
 
- private:
   void options_have_names(const SyntaxTree& tree, const CallExpr& call, const vm::Builtin& row) const {
     std::size_t position = 0;
     for (const Argument& argument : tree.list_of_arguments(call.arguments)) {

@@ -77,6 +77,7 @@ void place_object(Run& run, const Site& site, const eval::Value& value, const Tr
 }  // namespace
 
 bool Run::may_place(const KnownObject& object, Span span) {
+  if (stopped) return false;  // within the object: told already
   double& things = building ? building->placed : placed;
   double& lights = building ? building->placed_lights : placed_lights;
   things += 1 + object.holds;

@@ -184,10 +184,13 @@ std::regex pattern(const std::string& text) {
 
 // What no single scene text can bring about, and where it is tested instead.
 const std::set<std::string> not_from_a_scene{
-    "files included more than {} deep",  // wants as many files: tests/resolve/limits_test.cpp
-    "a list of more than {} entries",    // wants as many entries: the same
-    "it is larger than {} MB",           // wants such a file: the same
-    "pictures cannot be read here",      // wants a run without a reader of files
+    "files included more than {} deep",                // wants as many files: tests/resolve/limits_test.cpp
+    "a list of more than {} entries",                  // wants as many entries: the same
+    "it is larger than {} MB",                         // wants such a file: the same
+    "more than {} words and marks",                    // wants as many words: tests/syntax/lexer_test.cpp
+    "more than {} points of curves",                   // wants as many entries: tests/resolve/limits_test.cpp
+    "there is not enough memory for what this makes",  // wants a small machine: tests/cli/memory_test.cpp
+    "pictures cannot be read here",                    // wants a run without a reader of files
 };
 
 TEST(Messages, AreEachProvokedByACase) {
