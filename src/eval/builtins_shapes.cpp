@@ -76,12 +76,6 @@ std::optional<Field> read_field(CallSite& site) {
   return field;
 }
 
-// A number as it is written, with its sign.
-bool is_literal(const syntax::SyntaxTree& tree, syntax::ExprId id) {
-  const auto* sign = std::get_if<syntax::UnaryExpr>(&tree[id].node);
-  return std::holds_alternative<syntax::NumberExpr>(tree[sign ? sign->operand : id].node);
-}
-
 // sin(30): as for rotate_y(30), nothing says whether degrees are meant. What is computed, sin(2 * pi * x), is
 // in radians.
 Value bare_angle(CallSite& site) {

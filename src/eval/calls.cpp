@@ -10,6 +10,11 @@ namespace tyndall::eval {
 
 using namespace syntax;
 
+bool is_literal(const SyntaxTree& tree, ExprId id) {
+  const auto* sign = std::get_if<UnaryExpr>(&tree[id].node);
+  return std::holds_alternative<NumberExpr>(tree[sign ? sign->operand : id].node);
+}
+
 std::vector<std::string_view> parameter_names(const Evaluator& ev, std::span<const Parameter> parameters) {
   std::vector<std::string_view> names;
   for (const Parameter& parameter : parameters) names.push_back(ev.text(parameter.name.symbol));
@@ -57,8 +62,10 @@ std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tr
         continue;
       }
     } else if (position++ >= parameters.size()) {
+      const bool numbers = arguments.size() >= 3 && is_literal(call_tree, arguments[0].value);
       error(span, fmt::format("too many arguments for '{}'", callee),
-            listed(parameter_names(*this, parameters)));
+            listed(parameter_names(*this, parameters)) +
+                (numbers ? "; a point is one argument, with parentheses of its own: (x, y, z)" : ""));
       failed = true;
       break;
     }
@@ -99,10 +106,18 @@ Value Evaluator::call(const Function& function, const SyntaxTree& tree, const Ca
   if (!item)
     return error(span, fmt::format("'{}' places things and gives no value", name),
                  "call it as a statement of its own");
-  for (const Frame& frame : frames_)
-    if (frame.item == function.item)
-      return error(span, fmt::format("'{}' calls itself", text(item->name.symbol)),
-                   "functions may not; use a for loop", {{item->name.span, "defined here"}});
+  for (const Frame& frame : frames_) {
+    if (frame.item != function.item) continue;
+    // Its own name in its own text was told where it is defined.
+    const Span& own = function.item->span;
+    const bool told = name == text(item->name.symbol) && own.source == span.source &&
+                      own.begin <= span.begin && span.end <= own.end;
+    if (told) return ++errors_reported_, Value{};
+    return error(span, fmt::format("'{}' calls itself", text(item->name.symbol)),
+                 "functions may not; use a for loop", {{item->name.span, "defined here"}});
+  }
+  if (item->value.valid() && item->steps.valid())  // its '=' is missing, which was told
+    return ++errors_reported_, Value{};
   if (static_cast<int>(frames_.size()) >= max_call_depth)
     return error(span, fmt::format("more than {} functions inside each other", max_call_depth));
   const std::shared_ptr<Scope> inner = bind_arguments(*function.tree, item->parameters, function.scope, tree,

@@ -7,6 +7,7 @@
 #include "base/numerics.h"
 #include "eval/evaluator.h"
 #include "eval/name_walk.h"
+#include "syntax/foreign_words.h"
 
 namespace tyndall::eval {
 
@@ -176,6 +177,8 @@ Value Evaluator::unknown_name(SymbolId symbol, Span span, const Scope* scope,
   if (const auto elsewhere = context_.defined_elsewhere(symbol, span))
     return error_once(span, fmt::format("nothing is named '{}' here", word), std::string(elsewhere->help),
                       {{elsewhere->place, fmt::format("'{}' is defined here", word)}});
+  if (const std::string_view help = help_for_foreign_word(ForeignUse::value, word); !help.empty())
+    return error_once(span, fmt::format("nothing is named '{}' here", word), std::string(help), {});
   // Those that nothing uses first: one of them may have been meant.
   std::vector<std::string_view> candidates;
   for (const bool used : {false, true})
@@ -300,6 +303,13 @@ bool Evaluator::define(const SyntaxTree& tree, const Item& item, const std::shar
   } else if (const auto* function = std::get_if<FunctionItem>(&item.node)) {
     check_parameters(tree, function->parameters, nullptr);
     check_definition(*this, tree, item, scope);
+    if (function->value.valid() && function->steps.valid()) {
+      const Span& steps = tree[function->steps].span;
+      const std::string_view name = text(function->name.symbol);
+      error({steps.source, steps.begin, steps.begin + 1},
+            fmt::format("'=' is missing before the steps of '{}', which returns a value", name),
+            fmt::format("write def {}(…) = {{ … }}; without '=' it is a template that places things", name));
+    }
     add(function->name, Value::of_heavy(Type::function, Function{&tree, &item, scope}),
         BindingKind::constant);
   } else if (const auto* form = std::get_if<TemplateItem>(&item.node)) {

@@ -62,6 +62,9 @@ struct Context {
   std::optional<DefinedElsewhere> defined_elsewhere(syntax::SymbolId symbol, const Span& use) const;
 };
 
+// The way out where a colour is wanted and this is found.
+std::string help_for_color(const Value& found);
+
 // How many values a range holds (0 when empty, or when its step is 0 or not finite), and the i-th.
 std::int64_t count(const RangeValue& range);
 double at(const RangeValue& range, std::int64_t index);

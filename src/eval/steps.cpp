@@ -6,6 +6,7 @@
 
 #include "eval/evaluator.h"
 #include "eval/operators.h"
+#include "syntax/foreign_words.h"
 
 namespace tyndall::eval {
 
@@ -383,7 +384,8 @@ void Evaluator::report_no_output(const Outputs& outputs, const Name& name,
   const std::string_view word = text(name.symbol);
   std::vector<std::string_view> candidates = outputs.names;
   candidates.insert(candidates.end(), variables.begin(), variables.end());
-  const std::string guess = did_you_mean(word, candidates);
+  std::string guess(help_for_foreign_word(ForeignUse::output, word));
+  if (guess.empty()) guess = did_you_mean(word, candidates);
   error(name.span, fmt::format("'{}' has no output '{}'", outputs.owner, word),
         guess.empty()
             ? fmt::format("outputs are {}; let {} = … defines a name", fmt::join(outputs.names, ", "), word)

@@ -25,6 +25,7 @@ void run_assign(Run& run, const Site& site, const syntax::AssignItem& assign) {
     std::string help = did_you_mean(name, variables);
     if (help.empty())
       help = fmt::format("write `let {} = …`, or `var {} = …` for one that changes", name, name);
+    run.context.unread.definitions.push_back(assign.name.symbol);  // its uses are no mistakes
     return run.diagnostics.error(assign.name.span, fmt::format("no variable '{}' to set", name),
                                  std::move(help));
   }

@@ -113,12 +113,14 @@ void run_place(Run& run, const Site& site, const syntax::PlaceItem& place) {
       return run.diagnostics.error(
           place.name.span,
           fmt::format("'{}' is {}, not an object", name, eval::describe(binding->value.type)),
-          "an object is `object name { … }`", {{binding->definition, "defined here"}});
+          binding->value.type == eval::Type::function ? fmt::format("a template is called: {}(…)", name)
+                                                      : std::string("an object is `object name { … }`"),
+          {{binding->definition, "defined here"}});
     return report_undefined(run, place.name.symbol, place.name.span, fmt::format("no object '{}'", name),
                             did_you_mean(name, objects));
   }
-  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, place.block, PlaceParameters::keyword,
-                place.name.span);
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, place.block,
+                PlaceParameters::keyword, place.name.span);
   const auto given = reader.read<PlaceParameters>();
   reader.finish("an object has no parameters of its own; a template has");
   if (!reader.ok() || !run.may_repeat(1, place.name.span)) return;

@@ -188,7 +188,7 @@ struct PlacedShape {
   Transform outer_from_shape;
 };
 enum class Inside : bool { any, needed };  // whether open shapes will do
-std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside inside);
+std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside inside, Reader& outer);
 
 // Adds a light to the scene or the object being built; an error when its shape does not survive the map to
 // the world.

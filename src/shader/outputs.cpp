@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/check.h"
@@ -11,6 +12,21 @@
 namespace tyndall::shader {
 
 using eval::Value;
+
+// The way out of a share that is too large: colours that count to 255, percents without their sign.
+static std::string help_for_share(const OutputRule& rule, const Value& value) {
+  if (rule.lowest != 0 || rule.highest != 1 || !value.known()) return {};
+  std::array<double, 3> parts{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(value.width()); ++i) {
+    parts[i] = value.scalars[i].value;
+    if (parts[i] < 0 || parts[i] > 255) return {};
+  }
+  if (value.type == eval::Type::vec)
+    return fmt::format(
+        "a colour that counts to 255 is written #{:02x}{:02x}{:02x}, and (r, g, b) counts to 1",
+        std::lround(parts[0]), std::lround(parts[1]), std::lround(parts[2]));
+  return parts[0] <= 100 ? fmt::format("{0} percent is written {0}%", eval::text_of(value)) : std::string{};
+}
 
 // Reports a known number that the rule does not allow.
 static bool in_range(eval::Evaluator& evaluator, const OutputRule& rule, const Value& value, Span span) {
@@ -23,9 +39,10 @@ static bool in_range(eval::Evaluator& evaluator, const OutputRule& rule, const V
       return false;
     }
     if (s.value >= rule.lowest && s.value <= rule.highest) continue;
-    evaluator.error(
-        span, fmt::format("'{}' must be {}, found {}", rule.name, rule.range,
-                          value.known() ? eval::text_of(value) : eval::text_of(Value::number(s.value))));
+    evaluator.error(span,
+                    fmt::format("'{}' must be {}, found {}", rule.name, rule.range,
+                                value.known() ? eval::text_of(value) : eval::text_of(Value::number(s.value))),
+                    help_for_share(rule, value));
     return false;
   }
   return true;

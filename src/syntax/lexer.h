@@ -18,6 +18,9 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool is_word_begin(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 constexpr bool is_word_part(char c) { return is_word_begin(c) || is_digit(c); }
 
+// The number in the base unit of what is named, deg or cm; `none`, and nothing done, when that is no unit.
+Unit with_unit(std::string_view name, double& value);
+
 class Lexer {
  public:
   Lexer(const Sources& sources, SourceId source, Diagnostics& diagnostics)
@@ -90,6 +93,7 @@ class Lexer {
   };
   std::vector<Interpolation> interpolations_;
   std::uint32_t bad_escape_in_ = 0xffffffffu;  // begin of the last string with an unknown escape
+  bool after_directive_ = false;  // of POV-Ray, told already: the `;` that ends it is not told, too
   Habit semicolons_, undecodable_, control_characters_, odd_spaces_;
 };
 

@@ -169,6 +169,34 @@ TEST(Nearest, PrefersTheSmallerDistance) {
   EXPECT_EQ(did_you_mean("cube", {"sphere"}), "");
 }
 
+// Words of up to three letters are all alike: there only a slip of the hand is a mistyped word.
+TEST(Nearest, DoesNotTakeShortWordsForEachOther) {
+  const std::vector<std::string_view> known = {"sin", "min", "max", "abs", "pow",  "log",
+                                               "exp", "mod", "tan", "mix", "dot",  "pi",
+                                               "p",   "n",   "uv",  "hg",  "step", "fov"};
+  for (const char* word :
+       {"mie", "sign", "i",   "e",   "x",   "h",   "sun",  "fog", "rgb", "dog", "box", "max1", "ex",
+        "hue", "u",    "hit", "pie", "mid", "sky", "tank", "lot", "mad", "it",  "an",  "of"})
+    EXPECT_EQ(nearest(word, known), "") << word;
+  const std::pair<std::string_view, std::string_view> slips[] = {
+      {"sni", "sin"}, {"sinn", "sin"}, {"SIN", "sin"}, {"mxa", "max"},   {"ppi", "pi"},    {"PI", "pi"},
+      {"pp", "p"},    {"abbs", "abs"}, {"gh", "hg"},   {"setp", "step"}, {"stpe", "step"}, {"sttep", "step"}};
+  for (const auto& [word, meant] : slips) EXPECT_EQ(nearest(word, known), meant) << word;
+}
+
+// Longer words that share letters by chance.
+TEST(Nearest, TakesOneLetterInThreeAtMost) {
+  const std::vector<std::string_view> known = {"sphere", "focus", "floor",   "noise",
+                                               "point",  "power", "distant", "quad"};
+  for (const char* word :
+       {"torus", "color", "round", "world", "mouse", "tower1", "constant", "area", "while"})
+    EXPECT_EQ(nearest(word, known), "") << word;
+  const std::pair<std::string_view, std::string_view> mistyped[] = {
+      {"shpere", "sphere"}, {"spheer", "sphere"}, {"focsu", "focus"},     {"flor", "floor"},
+      {"nosie", "noise"},   {"piont", "point"},   {"distand", "distant"}, {"qaud", "quad"}};
+  for (const auto& [word, meant] : mistyped) EXPECT_EQ(nearest(word, known), meant) << word;
+}
+
 TEST(DidYouMean, PrefersTheWordWithOneKeyStuck) {
   EXPECT_EQ(nearest("pp", {"up", "p"}), "p");
   EXPECT_EQ(nearest("patchh", {"patchy", "patch"}), "patch");
