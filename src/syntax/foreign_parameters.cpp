@@ -36,6 +36,10 @@ constexpr std::string_view no_shadow =
     "leave it out: what is there has a shadow; visible: false hides it from the camera";
 
 constexpr ForeignWord parameters[] = {
+    // volumes
+    {"color", "write medium: { density = …  albedo = (r, g, b) }", "medium"},
+    {"anisotropy", "write medium: { …  phase = hg(0.5) }", "medium"},
+    {"domain", shape, "in"},
     // where it stands; the first row whose parameter the thing has
     {"position", direction, "direction"},
     {"position", center, "center"},
@@ -67,6 +71,7 @@ constexpr ForeignWord parameters[] = {
     {"translate", moved, "transform"},
     {"translation", moved, "transform"},
     {"rotate", turned, "transform"},
+    {"rotation", to, "to"},
     {"rotation", turned, "transform"},
     {"scale", scaled, "transform"},
     {"matrix", "write transform: matrix(x, y, z, origin)", "transform"},
@@ -95,6 +100,7 @@ constexpr ForeignWord parameters[] = {
     {"field_of_view", fov, "fov"},
     {"focal_length", fov, "fov"},
     {"zoom", fov, "fov"},
+    {"lens", fov, "fov"},
     {"lens_radius", aperture, "aperture"},
     {"lensradius", aperture, "aperture"},
     {"fstop", aperture, "aperture"},

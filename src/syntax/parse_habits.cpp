@@ -105,6 +105,8 @@ bool Parser::statement_of_others(const Name& keyword) {
   const std::string_view help = help_for_foreign_word(ForeignUse::statement, text(keyword));
   if (help.empty()) return false;
   fail(keyword.span, fmt::format("no statement '{}'", text(keyword)), std::string(help));
+  if (at(TokenKind::name))
+    tree_.unread_definitions.push_back(symbols_.intern(text(peek())));  // `float x = 1`
   skip_line();
   return true;
 }
