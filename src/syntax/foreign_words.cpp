@@ -141,7 +141,6 @@ constexpr ForeignWord statements[] = {
     {"require", include},
     {"print", no_printing},
     {"echo", no_printing},
-    {"puts", no_printing},
     {"const", definition},
     {"float", definition},
     {"int", definition},
