@@ -59,8 +59,8 @@ bool is_slip(const std::string& a, const std::string& b) {
 // three letters are all alike (mie, min, sin, sign, pi, i): there only a slip is one.
 bool may_be_meant(const std::string& wanted, const std::string& known, std::size_t distance) {
   constexpr std::size_t short_word = 3;
-  if (distance > std::max(wanted.size(), known.size()) / 3) return false;
-  return std::min(wanted.size(), known.size()) > short_word || is_slip(wanted, known);
+  if (std::min(wanted.size(), known.size()) <= short_word) return distance <= 1 && is_slip(wanted, known);
+  return distance <= std::max(wanted.size(), known.size()) / 3;
 }
 
 }  // namespace

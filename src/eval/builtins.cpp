@@ -128,6 +128,9 @@ Value call_builtin(Evaluator& ev, const BuiltinEntry& entry, const SyntaxTree& t
       return ev.error(place, fmt::format("too many arguments for '{}'", row.name), signature(row));
     } else if (row.parameters[index].named) {
       if (report_flat_vec(site, place)) return {};
+      bool has_place = true;
+      site.as(Type::vec, 0, has_place);
+      if (!has_place) return {};
       report_option_without_name(ev, row, tree, argument.value);
       ev.check_names(tree, argument.value, scope);
       failed = true;

@@ -146,6 +146,8 @@ Value Evaluator::call(const Function& function, const SyntaxTree& tree, const Ca
     return error(span, fmt::format("'{}' calls itself", text(item->name.symbol)),
                  "functions may not; use a for loop", {{item->name.span, "defined here"}});
   }
+  if (item->value.valid() && item->steps.valid())  // its '=' is missing, which was told
+    return ++errors_reported_, Value{};
   if (static_cast<int>(frames_.size()) >= max_call_depth)
     return error(span, fmt::format("more than {} functions inside each other", max_call_depth));
   const std::shared_ptr<Scope> inner = bind_arguments(*function.tree, item->parameters, function.scope, tree,

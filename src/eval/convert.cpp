@@ -12,8 +12,8 @@ namespace tyndall::eval {
 using namespace syntax;
 
 // What a text stands for that is no text here: a colour, or a word of another program; or nothing.
-static std::string without_quotes(const std::string& text) {
-  const std::string_view meant = help_for_foreign_word(ForeignUse::value, text);
+static std::string without_quotes(const std::string& text, bool value) {
+  const std::string_view meant = value ? help_for_foreign_word(ForeignUse::value, text) : std::string_view{};
   if (!meant.empty()) return std::string(meant);
   const bool color = text.size() > 1 && text.size() < 10 && text.front() == '#';
   return fmt::format("write {} without quotes", color ? text : "it");
@@ -22,7 +22,8 @@ static std::string without_quotes(const std::string& text) {
 // The way out of "wanted a, found b", or empty.
 static std::string way_out(Type wanted, const Value& value, bool widen) {
   const Type found = value.type;
-  if (const auto* text = value.get<std::string>()) return without_quotes(*text);
+  if (const auto* text = value.get<std::string>())
+    return without_quotes(*text, wanted == Type::vec || wanted == Type::phase);
   if (wanted == Type::phase && found == Type::number) {
     const bool cosine = value.known() && std::abs(value.as_number()) < 1;
     return fmt::format("write hg({}): its mean cosine, above 0 for forward scattering",
@@ -34,6 +35,7 @@ static std::string way_out(Type wanted, const Value& value, bool widen) {
   if (wanted == Type::transform && found == Type::angle) return "write rotate_y(30deg)";
   if (wanted == Type::transform && found == Type::number) return "write scale(2)";
   if (wanted == Type::vec && found == Type::list) return "a vec is written in parentheses: (x, y, z)";
+  if (wanted == Type::pair && found == Type::list) return "a pair is written in parentheses: (x, y)";
   if (wanted == Type::list && (found == Type::vec || found == Type::pair)) return "a list is written [a, b]";
   if (wanted == Type::range) return "a range is written 1..48";
   if (wanted == Type::material && value.width() > 0) return "write material: { base_color = … }";
@@ -56,7 +58,7 @@ static std::string way_out(Type wanted, const Value& value, bool widen) {
 }
 
 std::string help_for_color(const Value& value) {
-  if (const auto* text = value.get<std::string>()) return without_quotes(*text);
+  if (const auto* text = value.get<std::string>()) return without_quotes(*text, true);
   return value.type == Type::list ? "a colour is written in parentheses: (r, g, b), or #ff8800"
                                   : "a number is that much in each of red, green and blue";
 }

@@ -281,7 +281,8 @@ class NameCheck {
   void options_have_names(const SyntaxTree& tree, const CallExpr& call, const vm::Builtin& row) const {
     std::size_t position = 0;
     for (const Argument& argument : tree.list_of_arguments(call.arguments)) {
-      if (argument.name.symbol.valid()) return;
+      const bool is_text = std::holds_alternative<StringExpr>(tree[argument.value].node);
+      if (argument.name.symbol.valid() || is_text) return;  // a text is no place: that is told first
       if (position >= row.parameters.size()) return;
       if (row.parameters[position++].named) return report_option_without_name(ev_, row, tree, argument.value);
     }

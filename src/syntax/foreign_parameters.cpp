@@ -36,7 +36,12 @@ constexpr std::string_view no_shadow =
     "leave it out: what is there has a shadow; visible: false hides it from the camera";
 
 constexpr ForeignWord parameters[] = {
+    // volumes
+    {"color", "write medium: { density = …  albedo = (r, g, b) }", "medium"},
+    {"anisotropy", "write medium: { …  phase = hg(0.5) }", "medium"},
+    {"domain", shape, "in"},
     // where it stands; the first row whose parameter the thing has
+    {"position", direction, "direction"},
     {"position", center, "center"},
     {"position", from, "from"},
     {"position", moved, "transform"},
@@ -66,6 +71,7 @@ constexpr ForeignWord parameters[] = {
     {"translate", moved, "transform"},
     {"translation", moved, "transform"},
     {"rotate", turned, "transform"},
+    {"rotation", to, "to"},
     {"rotation", turned, "transform"},
     {"scale", scaled, "transform"},
     {"matrix", "write transform: matrix(x, y, z, origin)", "transform"},
@@ -94,6 +100,7 @@ constexpr ForeignWord parameters[] = {
     {"field_of_view", fov, "fov"},
     {"focal_length", fov, "fov"},
     {"zoom", fov, "fov"},
+    {"lens", fov, "fov"},
     {"lens_radius", aperture, "aperture"},
     {"lensradius", aperture, "aperture"},
     {"fstop", aperture, "aperture"},
@@ -163,7 +170,6 @@ constexpr ForeignWord parameters[] = {
     {"file", "write radiance: image(\"sky.hdr\")", "radiance"},
     {"to", direction, "direction"},
     {"from", direction, "direction"},
-    {"position", direction, "direction"},
     {"falloff", "write angle: … blend: …, the part of it that fades", "blend"},
     {"tightness", "write angle: … blend: …, the part of it that fades", "blend"},
     {"material", no_material, "power"},

@@ -13,8 +13,8 @@ constexpr std::string_view cells = "write cells(p)";
 constexpr std::string_view phase = "write hg(0.8), or droplets(0.02mm) for fog and clouds";
 constexpr std::string_view mix = "write mix(a, b, w)";
 constexpr std::string_view remap = "write remap(x, from_low, from_high, to_low, to_high)";
-constexpr std::string_view sign = "write if x < 0 then -1 else 1";
-constexpr std::string_view round = "write floor(x + 0.5)";
+constexpr std::string_view sign = "write sign(x)";
+constexpr std::string_view round = "write round(x)";
 constexpr std::string_view random = "write random(i): the same for the same arguments, there is no state";
 constexpr std::string_view smooth_union = "write smooth_union(a, b, width)";
 constexpr std::string_view blackbody = "write blackbody(3200K)";
@@ -90,8 +90,7 @@ constexpr ForeignWord values[] = {
     // numbers
     {"lerp", mix},
     {"blend", mix},
-    {"saturate", "write clamp(x, 0, 1)"},
-    {"clamp01", "write clamp(x, 0, 1)"},
+    {"clamp01", "write saturate(x)"},
     {"clip", "write clamp(x, low, high)"},
     {"linstep", "write clamp(remap(x, a, b, 0, 1), 0, 1)"},
     {"linearstep", "write clamp(remap(x, a, b, 0, 1), 0, 1)"},
@@ -99,14 +98,14 @@ constexpr ForeignWord values[] = {
     {"inverse_lerp", remap},
     {"map_range", remap},
     {"fit", remap},
-    {"sign", sign},
     {"sgn", sign},
-    {"round", round},
     {"rint", round},
     {"trunc", "write floor(x)"},
     {"int", "write floor(x)"},
     {"rand", random},
     {"rnd", random},
+    {"seed", random},
+    {"function", "write def f(x) = value"},
     {"hash", random},
     {"drand48", random},
     {"uniform", random},
@@ -135,6 +134,8 @@ constexpr ForeignWord values[] = {
     {"vdot", "write dot(a, b)"},
     {"vcross", "write cross(a, b)"},
     {"vrotate", "write rotate_y(p, angle)"},
+    {"None", "there is no empty value: leave the parameter out"},
+    {"null", "there is no empty value: leave the parameter out"},
     {"True", "write true"},
     {"False", "write false"},
     {"clock", "write time, in seconds, or frame"},

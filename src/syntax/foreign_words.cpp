@@ -141,7 +141,6 @@ constexpr ForeignWord statements[] = {
     {"require", include},
     {"print", no_printing},
     {"echo", no_printing},
-    {"puts", no_printing},
     {"const", definition},
     {"float", definition},
     {"int", definition},
@@ -256,6 +255,7 @@ constexpr std::string_view no_feet = "lengths are mm, cm, m or km: 1in is 2.54cm
 constexpr std::string_view no_unit = "leave it out: this has no unit here";
 constexpr ForeignWord units[] = {
     {"d", degrees},
+    {"degs", degrees},
     {"degree", degrees},
     {"degrees", degrees},
     {"radian", "write 0.5rad"},

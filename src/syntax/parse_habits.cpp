@@ -105,6 +105,8 @@ bool Parser::statement_of_others(const Name& keyword) {
   const std::string_view help = help_for_foreign_word(ForeignUse::statement, text(keyword));
   if (help.empty()) return false;
   fail(keyword.span, fmt::format("no statement '{}'", text(keyword)), std::string(help));
+  if (at(TokenKind::name))
+    tree_.unread_definitions.push_back(symbols_.intern(text(peek())));  // `float x = 1`
   skip_line();
   return true;
 }
@@ -133,14 +135,6 @@ Unit Parser::parted_unit(const Token& number, double& value) {
 bool Parser::vector_word(const Name& name) const {
   static constexpr std::string_view words[] = {"rgb", "srgb", "rgbf", "rgbt", "rgbft", "color", "vector"};
   return std::find(std::begin(words), std::end(words), text(name)) != std::end(words);
-}
-
-// `sphere: { radius: 2 }`: only media and materials are braces alone. What is in them is read as parameters;
-// that nothing has one of this name is told later.
-ExprId Parser::braces_of_no_body() {
-  const std::uint32_t first = at_;
-  const BlockId braces = block(BlockPlace::thing, "the value");
-  return add(first, ThingExpr{{}, {}, braces}, 1 + height(braces));
 }
 
 // `place tree` or `place tree()`, read as if `{}` stood there.

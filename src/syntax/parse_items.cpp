@@ -109,7 +109,7 @@ std::optional<Parser::ItemNode> Parser::def_item() {
     const BlockId body = block(BlockPlace::file, fmt::format("'{}'", text(*name)));
     if (!gives_value(body)) return TemplateItem{*name, list, body};
     // Without '=' it is a template by the grammar; a value beside the steps tells whoever defines it.
-    const ExprId mistaken = python ? ExprId{} : error_expr();
+    const ExprId mistaken = python ? ExprId{} : add(at_, BoolExpr{false});
     return FunctionItem{*name, list, mistaken, body};
   }
   if (at(TokenKind::colon)) {
@@ -266,7 +266,7 @@ std::optional<Parser::ItemNode> Parser::parameter_item() {
   switch (place_) {
     case BlockPlace::thing:
       if (at(TokenKind::left_brace) && tokens_.tokens[at_ - 2].kind == TokenKind::name)
-        return ParameterItem{name, braces_of_no_body()};
+        braces_of_no_body_ = at_;
       return ParameterItem{name, expression()};
     case BlockPlace::body:
       note_mistake(colon, fmt::format("'{}' is set with '=' here", text(name)),

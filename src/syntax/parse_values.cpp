@@ -68,7 +68,8 @@ ExprId Parser::not_a_value() {
 // unnamed_body = block, as in `medium: { density = 1 }`
 ExprId Parser::unnamed_body() {
   const std::uint32_t first = at_;
-  const BlockId body = block(BlockPlace::body, "the value");
+  const BlockPlace place = first == braces_of_no_body_ ? BlockPlace::thing : BlockPlace::body;
+  const BlockId body = block(place, "the value");
   return add(first, ThingExpr{{}, {}, body}, 1 + height(body));
 }
 

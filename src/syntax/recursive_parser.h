@@ -88,7 +88,6 @@ class Parser {
   bool begins_thing() const;
   Unit parted_unit(const Token& number, double& value);
   bool vector_word(const Name& name) const;
-  ExprId braces_of_no_body();
   PlaceItem placed_without_braces(const Name& name);
   struct ForeignStatement {
     Span place;
@@ -218,6 +217,9 @@ class Parser {
   Diagnostics& diagnostics_;
   SyntaxTree tree_;
   std::uint32_t at_ = 0;
+  // The '{' of `sphere: { radius: 2 }`: only media and materials are braces alone, so that parameters are
+  // meant.
+  std::uint32_t braces_of_no_body_ = 0xffffffffu;
   // Set by the first error of an item, cleared where reading goes on: what follows an error is not reported.
   bool panic_ = false;
   bool gave_up_ = false;           // nested too deeply: the rest of the file is not read

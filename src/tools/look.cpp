@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <unordered_map>
 
 #include "compile/compiled_scene.h"
 #include "compile/geometry.h"
@@ -32,6 +33,19 @@ ExitStatus misuse(const std::string& message) {
 ExitStatus fail(const std::string& message) {
   print_error(message);
   return ExitStatus::problem;
+}
+
+// Calls media without a name by their line, "line:12"; "line:12:40" with the column where another has the
+// line already.
+void name_by_lines(scene::Scene& scene, const Sources& sources) {
+  std::unordered_map<std::string, Span> taken;
+  for (scene::Medium& medium : scene.media) {
+    if (medium.name != "medium") continue;  // a reserved word, which no definition can have
+    const LineColumn at = sources[medium.definition.source].locate(medium.definition.begin);
+    medium.name = fmt::format("line:{}", at.line);
+    if (taken.try_emplace(medium.name, medium.definition).first->second != medium.definition)
+      medium.name += fmt::format(":{}", at.column);
+  }
 }
 
 // A volume of the scene, or of an object where it is first placed.
@@ -241,6 +255,7 @@ ExitStatus look(const SceneRequest& request, const LookArguments& arguments) {
   if (loaded->diagnostics.has_errors()) return ExitStatus::problem;
   if (const std::string problem = files.read_by_scene(loaded->files_read); !problem.empty())
     return fail(problem);
+  name_by_lines(loaded->scene, loaded->sources);
   return arguments.profile ? show_profile(arguments, *loaded) : show_slice(arguments, *loaded);
 }
 

@@ -211,8 +211,7 @@ TEST(Nearest, DoesNotTakeShortWordsForEachOther) {
 TEST(Nearest, TakesOneLetterInThreeAtMost) {
   const std::vector<std::string_view> known = {"sphere", "focus", "floor",   "noise",
                                                "point",  "power", "distant", "quad"};
-  for (const char* word :
-       {"torus", "color", "round", "world", "mouse", "tower1", "constant", "area", "while"})
+  for (const char* word : {"torus", "color", "round", "world", "mouse", "constant", "area", "while"})
     EXPECT_EQ(nearest(word, known), "") << word;
   const std::pair<std::string_view, std::string_view> mistyped[] = {
       {"shpere", "sphere"}, {"spheer", "sphere"}, {"focsu", "focus"},     {"flor", "floor"},

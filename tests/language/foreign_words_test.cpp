@@ -65,8 +65,9 @@ TEST(ForeignWords, Parameters) {
       statement.list_names(known);
       const bool has_it = std::find(known.begin(), known.end(), row.word) != known.end();
       if (has_it || syntax::find_foreign_parameter(row.word, known) != &row) continue;
-      for (const Diagnostic& d : errors_of(fmt::format("{} {{ {}: 1 }}", statement.name, row.word)))
-        told |= d.help == row.help;
+      Case c;  // a scene of this thing alone, which may be its camera
+      run_text("scene.tyn", fmt::format("{} {{ {}: 1 }}", statement.name, row.word), c);
+      for (const Diagnostic& d : c.diagnostics.all()) told |= d.help == row.help;
     }
     EXPECT_TRUE(told) << row.word << ": nothing has a use for: " << row.help;
   }

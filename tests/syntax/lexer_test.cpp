@@ -115,7 +115,7 @@ TEST(Lexer, LettersJoinedToANumberAreWhollyAUnit) {
   EXPECT_EQ(
       errors("2e"),
       "1:2 'e' is not a unit [the units are deg rad mm cm km ms m s K %; a product is written with '*']\n");
-  EXPECT_EQ(errors("30degs"), "1:3 'degs' is not a unit [did you mean 'deg'?]\n");
+  EXPECT_EQ(errors("30degs"), "1:3 'degs' is not a unit [write 30deg]\n");
   EXPECT_EQ(errors("0x10"), "1:2 'x10' is not a unit [numbers are decimal]\n");
   EXPECT_EQ(errors("0xff8000"), "1:2 'xff8000' is not a unit [a colour is written #ff8000]\n");
   EXPECT_EQ(
