@@ -150,6 +150,9 @@ void Reader::report_one_of(const std::vector<std::string_view>& names) {
 }
 
 void Reader::report_unknown(const Given& given, std::string_view hint, Reader* outer) {
+  // Many more of them would be looked for in vain.
+  if (diagnostics_.full())
+    return error(given.item->name.span, no_parameter(symbols_.text(given.item->name.symbol), keyword_));
   // Those that are missing first, then those not given yet.
   std::vector<std::string_view> candidates;
   const std::vector<std::string_view> known = known_names();

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -96,9 +97,15 @@ class Reader {
     bool taken;
   };
   Given* find(syntax::SymbolId name) {
-    for (Given& given : given_)
-      if (given.item->name.symbol == name) return &given;
-    return nullptr;
+    constexpr std::size_t few = 16;  // are looked through faster than a table is asked
+    if (given_.size() <= few) {
+      for (Given& given : given_)
+        if (given.item->name.symbol == name) return &given;
+      return nullptr;
+    }
+    for (std::size_t i = places_.size(); i < given_.size(); ++i) places_[given_[i].item->name.symbol] = i;
+    const auto found = places_.find(name);
+    return found == places_.end() ? nullptr : &given_[found->second];
   }
   Span value_span(const Given& given) const { return (*site_.tree)[given.item->value].span; }
   eval::Value evaluate(eval::Type type, const FieldInfo& info, const Given& given);
@@ -168,8 +175,9 @@ class Reader {
   ReaderSite site_;
   std::string_view keyword_;
   Span header_;
-  std::vector<Given> given_;
-  std::vector<const syntax::Item*> others_;  // what is no parameter
+  std::vector<Given> given_;                                  // each name once
+  std::unordered_map<syntax::SymbolId, std::size_t> places_;  // in it, when there are many
+  std::vector<const syntax::Item*> others_;                   // what is no parameter
   // Names given in a wrong way, which has been told: they are not missing.
   std::vector<syntax::SymbolId> meant_;
   bool transforms_told_ = false, outputs_told_ = false;  // several of them are one mistake
