@@ -17,6 +17,9 @@ bool bench_bounds(double seconds_a_row);
 // Ten lights against a thousand, at equal error. False when a thousand cost more than three times as much.
 bool bench_lights();
 
+// What `--error` reaches and tells in 20 renders of each scene, tame ones and those with rare bright paths.
+void bench_errors();
+
 // Fire sampled as light against fire that is met by chance, at equal time. False when a scene cannot be read.
 bool bench_fire();
 

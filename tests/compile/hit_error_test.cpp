@@ -170,7 +170,7 @@ void place(scene::Scene& s, const scene::ShapeInstance& thing, const Placement& 
   s.shapes.push_back(first);
   if (!how.moves) return;
   s.animation.shutter.radians = pi;
-  s.motion.shapes.push_back({0, {first, last}});
+  s.motion.shapes.push_back({0, {first, last}, {0, 1}, {}});
 }
 
 class Random {
@@ -199,7 +199,7 @@ Transform world_from_thing(const scene::Scene& s, double fraction) {
   if (!s.instances.empty())
     return s.instances[0].world_from_object * s.prototypes[1].instances[0].world_from_object;
   return s.motion.shapes.empty() ? s.shapes[0].world_from_object
-                                 : scene::at(s.motion.shapes[0].keys, fraction).world_from_object;
+                                 : scene::at(s.motion.shapes[0], fraction).world_from_object;
 }
 
 struct Counts {
