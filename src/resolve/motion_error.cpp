@@ -145,7 +145,7 @@ void Range<T>::add(const T& thing, const Balls& balls) {
 }
 
 template <class T>
-double Range<T>::error(const T& truth, const T& guess, const Balls& balls) const {
+double Range<T>::deviation(const T& truth, const T& guess, const Balls& balls) const {
   double worst = own_error(truth, guess);
   const auto judge = [&](double off, double enough) {
     if (off > 0) worst = std::max(worst, off / enough);  // none is enough: infinitely far off

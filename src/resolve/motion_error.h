@@ -42,7 +42,7 @@ class Range {
   // 4000th of the box that it and its like go through, and a 50th of the thing's size; for every other number
   // a 4000th of what it ranges over; for where a camera stands and looks a 4000th of the distance between the
   // two. Always what rounding makes of either.
-  double error(const T& truth, const T& guess, const Balls& balls) const;
+  double deviation(const T& truth, const T& guess, const Balls& balls) const;
 
  private:
   std::vector<Intervald> numbers_;               // both ends included

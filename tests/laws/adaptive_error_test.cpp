@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/error_scenes.h"
+#include "support/scene_text.h"
 
 namespace tyndall {
 namespace {
@@ -12,10 +13,11 @@ namespace {
 TEST(AdaptiveLaws, ErrorsOfTameScenesAreAsTold) {
   for (const support::ErrorScene& row : support::error_scenes) {
     if (!row.law) continue;
-    const image::Image truth = support::error_reference(row);
+    const scene::Scene scene = support::scene_of(support::error_scene_text(row));
+    const image::Image truth = support::error_reference(row, scene);
     int kept = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      const support::ErrorRun run = support::error_run(row, truth, seed);
+      const support::ErrorRun run = support::error_run(row, scene, truth, seed);
       kept += run.claimed && run.kept();
     }
     EXPECT_GE(kept, 19) << row.name;

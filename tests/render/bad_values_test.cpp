@@ -60,9 +60,10 @@ std::vector<Row> rows() {
   add(of_amount("absorption", "scattering = 1  absorption = VALUE", false));
   add(of_amount("emission", "albedo = 0.5  emission = VALUE", false));
   for (const char* output : {"base_color", "metallic", "roughness", "specular", "coat", "sheen", "opacity"})
-    add(of_share(output,
-                 (std::string("base_color = 0.5  ").substr(output[0] == 'b' ? 19 : 0)) + output + " = VALUE",
-                 true));
+    add(of_share(
+        output,
+        (output == std::string("base_color") ? "" : std::string("base_color = 0.5  ")) + output + " = VALUE",
+        true));
   add(of_share("transmission", "base_color = 0.5  roughness = 0.3  transmission = VALUE", true));
   add(of_amount("emission", "base_color = 0.5  emission = VALUE", true));
   all.push_back({"g of hg", "albedo = 1  phase = hg(VALUE)", "2 + p.x", "0.9999 + 0 * p.x", above});

@@ -7,7 +7,6 @@
 #include "compile/compiled_scene.h"
 #include "image/compare.h"
 #include "render/render.h"
-#include "support/scene_text.h"
 
 namespace tyndall::support {
 
@@ -62,17 +61,16 @@ inline const ErrorScene error_scenes[] = {
      "}\n"},
 };
 
-inline scene::Scene error_scene(const ErrorScene& row, std::uint64_t seed) {
-  scene::Scene scene = scene_of(std::string("render { resolution: (64, 36)  bounces: 24 }\n") + row.scene);
-  scene.settings.seed = seed;
-  return scene;
+inline std::string error_scene_text(const ErrorScene& row) {
+  return std::string("render { resolution: (64, 36)  bounces: 24 }\n") + row.scene;
 }
 
 // The picture that errors are taken against, of a seed of its own.
-inline image::Image error_reference(const ErrorScene& row) {
+inline image::Image error_reference(const ErrorScene& row, scene::Scene scene) {
   render::RenderOptions options;
   options.sample_count = row.reference_samples;
-  return render::render(compile::compile(error_scene(row, 1000)), options).film.image();
+  scene.settings.seed = 1000;
+  return render::render(compile::compile(std::move(scene)), options).film.image();
 }
 
 // One render with a goal: the error that it has and the one that it tells, in shares of the goal.
@@ -81,11 +79,13 @@ struct ErrorRun {
   bool claimed = false;  // it says that the goal was reached, and that nothing rare was met
   bool kept() const { return 0.5 <= reached && reached <= 1.1; }
 };
-inline ErrorRun error_run(const ErrorScene& row, const image::Image& truth, std::uint64_t seed) {
+inline ErrorRun error_run(const ErrorScene& row, scene::Scene scene, const image::Image& truth,
+                          std::uint64_t seed) {
+  scene.settings.seed = seed;
   render::RenderOptions options;
   options.error = row.target;
   options.sample_count = row.reference_samples / 4;
-  const render::RenderResult result = render::render(compile::compile(error_scene(row, seed)), options);
+  const render::RenderResult result = render::render(compile::compile(std::move(scene)), options);
   ErrorRun run;
   run.reached = std::sqrt(image::compare(result.film.image(), truth).relative_mse) / row.target;
   run.told = result.statistics.estimated_error / row.target;

@@ -88,7 +88,7 @@ TYNDALL_VM_INLINE V largest_size(Bound<V> a) {
 }
 template <class V>
 TYNDALL_VM_INLINE Bound<V> hull(Bound<V> a, Bound<V> b) {
-  return {lesser(a.lo, b.lo), greater(a.hi, b.hi), either(a.nan, b.nan)};
+  return from_to(lesser(a.lo, b.lo), greater(a.hi, b.hi), either(a.nan, b.nan));
 }
 template <class V>
 TYNDALL_VM_INLINE Bound<V> choose(MaskOf<V> m, Bound<V> a, Bound<V> b) {
