@@ -47,7 +47,7 @@ TEST_F(Memory, IsNotTakenForMillionsOfBrackets) {
   const std::string scene = file("a.tyn", "let a = " + std::string(50'000'000, '('));
   const Outcome outcome = tyndall_within(600, "check " + scene);
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.err.find("a.tyn:1:264: error: nested too deeply"), std::string::npos)
+  EXPECT_NE(outcome.err.find("a.tyn:1:265: error: nested too deeply"), std::string::npos)
       << outcome.err.substr(0, 1000);
 }
 
