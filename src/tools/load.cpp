@@ -90,7 +90,8 @@ static void read_stages(const SceneRequest& request, Stage last, LoadedScene& lo
                                  .include_directories = request.include_directories,
                                  .allow_outside = request.allow_outside,
                                  .shader = {.watch = request.watch},
-                                 .may_only_define = request.may_only_define};
+                                 .may_only_define = request.may_only_define,
+                                 .files_read = &loaded.files_read};
   loaded.scene = resolve::resolve(loaded.tree, loaded.sources, loaded.symbols, options, loaded.diagnostics);
   loaded.seconds.resolve = watch.lap();
 }

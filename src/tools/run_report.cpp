@@ -265,11 +265,15 @@ void report_run_problems(const RenderArguments& arguments, const render::Statist
                     missed.reached < 1
                         ? fmt::format("`step: auto({}%)` is kept; ", rounded_up(missed.reached * 100))
                         : "a smaller volume around what varies most takes fewer; "));
+  // What a shader gave out of range is told already, and with its line.
+  const bool told =
+      std::any_of(statistics.bad_values.begin(), statistics.bad_values.end(),
+                  [](const render::BadValue& bad) { return bad.kind == render::BadValue::Kind::above; });
   constexpr double told_film_loss = 0.001;
-  if (statistics.clipped_samples > 0 || statistics.lost_light > told_film_loss * statistics.light)
+  if (!told && (statistics.clipped_samples > 0 || statistics.lost_light > told_film_loss * statistics.light))
     report({},
-           fmt::format("the film keeps samples from 5e-20 to 2.7e11, and lost {:.2g}% of the light: {}",
-                       100 * statistics.lost_light / statistics.light,
+           fmt::format("the film keeps samples from 5e-20 to 2.7e11, and lost {}% of the light: {}",
+                       rounded_up(100 * statistics.lost_light / statistics.light),
                        statistics.clipped_samples > 0
                            ? fmt::format("{} {} too bright", statistics.clipped_samples,
                                          statistics.clipped_samples == 1 ? "sample was" : "samples were")

@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
             "6:3", "values of 'emission' that are infinite", true},
         Row{"NoiseFarOut",
             "volume { in: sphere {}  medium: {\n  density = 0.1 + 0.01 * fbm(p * 3e7)\n  albedo = 0.5 } }\n",
-            "5:24", "'fbm' here at places as far out as 3e+07, where numbers are 2 apart", false},
+            "5:26", "'fbm' here at places as far out as 3e+07, where numbers are 2 apart", false},
         Row{"WidenedStep",
             "volume { in: box { min: (-1, -1, -1)  max: (1, 1, 1) }  step: 1e-5  medium: {\n"
             "  density = 1 + 0.5 * sin(40 * p.z)\n  albedo = 0 } }\n",
