@@ -50,6 +50,7 @@ namespace {
 
 constexpr std::uint32_t max_columns = 100;    // of a source line that are shown
 constexpr std::uint32_t columns_before = 60;  // of them at most before the caret, when the line is cut
+constexpr int few_odd = 8;  // characters that cannot be shown, in a line that is shown all the same
 constexpr std::string_view ellipsis = "…";
 
 struct Colors {
@@ -99,6 +100,7 @@ std::size_t step_back(std::string_view line, std::size_t offset, std::uint32_t c
 // A source line and the line of carets under it, both cut to a window around the caret.
 struct Excerpt {
   std::string line, carets;
+  int odd = 0;  // characters that could not be shown
 };
 
 // `begin` and `end` are byte offsets in the line. Tabs stay tabs in both lines, so that the caret stands
@@ -121,7 +123,9 @@ Excerpt excerpt(std::string_view line, std::size_t begin, std::size_t end) {
   for (std::uint32_t columns = 0; i < line.size() && columns < max_columns; ++columns) {
     const CodePoint c = decode_utf8(line, i);
     const bool tab = c.valid && c.value == '\t';
-    if (!tab && (!c.valid || is_control(c.value)))
+    const bool odd = !tab && (!c.valid || is_control(c.value));
+    out.odd += odd;
+    if (odd)
       append_utf8(out.line, 0xfffd);
     else
       out.line += line.substr(i, c.bytes);
@@ -152,10 +156,12 @@ void write_message(std::string& out, Severity severity, const Span& span, std::s
   const std::uint32_t number = source.locate(span.begin).line;
   const std::string_view line = source.line(number);
   const auto line_begin = static_cast<std::size_t>(line.data() - source.text().data());
-  const std::size_t begin = std::min<std::size_t>(span.begin - line_begin, line.size());
+  const std::size_t begin =
+      std::clamp<std::size_t>(span.begin, line_begin, line_begin + line.size()) - line_begin;
   const std::size_t end =
       std::clamp<std::size_t>(span.end - std::min<std::size_t>(line_begin, span.end), begin, line.size());
   const Excerpt shown = excerpt(line, begin, end);
+  if (shown.odd > few_odd) return;  // no text: nobody could read it, and it may be anything
   out +=
       fmt::format("{:>5} | {}\n      | {}{}{}\n", number, shown.line, colors.caret, shown.carets, colors.off);
 }

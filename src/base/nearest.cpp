@@ -45,6 +45,24 @@ std::string without_doubles(std::string text) {
   return text;
 }
 
+// True if the words differ by what a hand does wrong, not by their letters: a key that is stuck or skipped
+// where it comes twice, two keys in the wrong order.
+bool is_slip(const std::string& a, const std::string& b) {
+  if (without_doubles(a) == without_doubles(b)) return true;
+  std::string x = a, y = b;
+  std::sort(x.begin(), x.end());
+  std::sort(y.begin(), y.end());
+  return x == y && edit_distance(a, b) == 1;
+}
+
+// Whether a word at that distance may have been meant. One letter in three may be wrong; but words of up to
+// three letters are all alike (mie, min, sin, sign, pi, i): there only a slip is one.
+bool may_be_meant(const std::string& wanted, const std::string& known, std::size_t distance) {
+  constexpr std::size_t short_word = 3;
+  if (std::min(wanted.size(), known.size()) <= short_word) return distance <= 1 && is_slip(wanted, known);
+  return distance <= std::max(wanted.size(), known.size()) / 3;
+}
+
 }  // namespace
 
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
@@ -59,10 +77,8 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
   for (const std::string_view candidate : candidates) {
     if (candidate == word || candidate.size() > longest_word) continue;
     const std::string known = lower(candidate);
-    const std::size_t most =
-        (std::max(wanted.size(), known.size()) + 1) / 3;  // one letter in three may be wrong
     std::size_t distance = edit_distance(wanted, known);
-    if (distance > most) {
+    if (!may_be_meant(wanted, known, distance)) {
       if (wanted.size() < shortest_beginning || !known.starts_with(wanted)) continue;
       distance = longest_word + known.size();  // a beginning: only when nothing is alike
     }

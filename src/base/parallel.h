@@ -1,4 +1,5 @@
-// Parallel loops. The only place where threads are made (oneTBB, in parallel.cpp).
+// Parallel loops. The only place where threads are made. A library's pool would end the program where a
+// thread cannot be had; here the work is done by those that can.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +11,16 @@ namespace tyndall {
 int hardware_threads();
 
 // Calls body(index, worker) for every index in [0, count), in any order; `worker` in [0, workers) names the
-// scratch that this call may use alone. threads: 0 for all. Returns when all calls have returned.
-void parallel_for(std::size_t count, int threads,
-                  const std::function<void(std::size_t index, int worker)>& body);
+// scratch that this call may use alone. threads: 0 for all; fewer take part when the system has no more to
+// give. What a call throws ends the loop and is thrown on. Returns when all calls have returned: how many
+// workers took part.
+int parallel_for(std::size_t count, int threads,
+                 const std::function<void(std::size_t index, int worker)>& body);
 
-// How many workers parallel_for(…, threads, …) may number.
-int worker_count(int threads);
+// Whether the system would give so many threads, now.
+bool can_have_threads(int count);
+
+// How many workers parallel_for(count, threads, …) wants, and so may number.
+int loop_workers(std::size_t count, int threads);
 
 }  // namespace tyndall

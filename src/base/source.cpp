@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "base/line_ends.h"
 
 namespace tyndall {
 
@@ -13,14 +14,19 @@ Span join(const Span& a, const Span& b) {
   return {a.source, std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
+// A CR that ends a line by itself becomes LF: nobody else needs to know those. Lines begin after a byte order
+// mark.
 Source::Source(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {
-  line_begins_.push_back(0);
-  for (std::size_t i = 0; i < text_.size(); ++i)
+  line_begins_.push_back(
+      text_.starts_with(byte_order_mark) ? static_cast<std::uint32_t>(byte_order_mark.size()) : 0);
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    if (is_lone_cr(text_, i)) text_[i] = '\n';
     if (text_[i] == '\n') line_begins_.push_back(static_cast<std::uint32_t>(i + 1));
+  }
 }
 
 LineColumn Source::locate(std::uint32_t offset) const {
-  offset = std::min(offset, static_cast<std::uint32_t>(text_.size()));
+  offset = std::clamp(offset, line_begins_.front(), static_cast<std::uint32_t>(text_.size()));
   const auto after = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
   const auto line = static_cast<std::uint32_t>(after - line_begins_.begin());
   std::uint32_t column = 1;

@@ -9,6 +9,7 @@
 
 #include "base/check.h"
 #include "base/numerics.h"
+#include "base/parallel.h"
 
 namespace tyndall::compile {
 
@@ -19,10 +20,11 @@ namespace {
 // by R·2^-20 lose none.
 constexpr double float_ray_margin = 0x1p-20;
 
-// One for all trees: a device has threads and memory of its own.
+// One for all trees: a device has threads and memory of its own. Its pool ends the program when it cannot
+// have its threads, so that it is asked before whether it can.
 RTCDevice device() {
   struct Device {
-    RTCDevice handle = rtcNewDevice(nullptr);
+    RTCDevice handle = rtcNewDevice(can_have_threads(hardware_threads()) ? nullptr : "threads=1");
     ~Device() { rtcReleaseDevice(handle); }
   };
   static const Device one;
@@ -38,6 +40,9 @@ struct Query {
   double scale;     // length of the caller's direction: the float ray's is unit
 };
 
+float rounded_down(double t) {
+  return std::nextafter(static_cast<float>(t), -std::numeric_limits<float>::infinity());
+}
 float rounded_up(double t) {
   return std::nextafter(static_cast<float>(t), std::numeric_limits<float>::infinity());
 }
@@ -106,8 +111,8 @@ BoundsTree::BoundsTree(std::span<const Bounds> boxes) : impl_(std::make_unique<I
 BoundsTree::~BoundsTree() = default;
 BoundsTree::BoundsTree(BoundsTree&&) noexcept = default;
 
-void BoundsTree::visit_boxes(const Vec3d& origin, const Vec3d& direction, double t_max, Callback callback,
-                             void* visitor) const {
+void BoundsTree::visit_boxes(const Vec3d& origin, const Vec3d& direction, double t_min, double t_max,
+                             Callback callback, void* visitor) const {
   if (!impl_->scene) return;
   Query query{};
   rtcInitIntersectContext(&query.context);
@@ -132,7 +137,8 @@ void BoundsTree::visit_boxes(const Vec3d& origin, const Vec3d& direction, double
   ray.ray.dir_x = static_cast<float>(direction.x / query.scale);
   ray.ray.dir_y = static_cast<float>(direction.y / query.scale);
   ray.ray.dir_z = static_cast<float>(direction.z / query.scale);
-  ray.ray.tnear = 0;
+  // What is met at t_min is within the margin of its box: rounding of t is a part of it.
+  ray.ray.tnear = std::max(rounded_down((t_min - query.t_offset) * query.scale), 0.0f);
   ray.ray.tfar = rounded_up((t_max - query.t_offset) * query.scale);
   ray.ray.mask = ~0u;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;

@@ -18,14 +18,14 @@ class BoundsTree {
   ~BoundsTree();
   BoundsTree(BoundsTree&&) noexcept;
 
-  // Tells the visitor of every box that the ray may meet in [0, t_max), nearer ones roughly first; the
-  // direction has any length but zero. The
-  // visitor returns the t beyond which nothing matters any more: t_max, a hit's t, or a negative number to
-  // stop.
+  // Tells the visitor of every box that the ray may meet in [t_min, t_max), t_min not below 0, nearer ones
+  // roughly first; the direction has any length but zero. The visitor returns the t beyond which nothing
+  // matters any more: t_max, a hit's t, or a negative number to stop.
   template <class Visitor>
-  void visit(const Vec3d& origin, const Vec3d& direction, double t_max, Visitor&& visitor) const {
+  void visit(const Vec3d& origin, const Vec3d& direction, double t_min, double t_max,
+             Visitor&& visitor) const {
     visit_boxes(
-        origin, direction, t_max,
+        origin, direction, t_min, t_max,
         [](void* v, std::uint32_t index) {
           return (*static_cast<std::remove_reference_t<Visitor>*>(v))(index);
         },
@@ -34,7 +34,7 @@ class BoundsTree {
 
  private:
   using Callback = double (*)(void* visitor, std::uint32_t index);
-  void visit_boxes(const Vec3d& origin, const Vec3d& direction, double t_max, Callback callback,
+  void visit_boxes(const Vec3d& origin, const Vec3d& direction, double t_min, double t_max, Callback callback,
                    void* visitor) const;
 
   struct Impl;

@@ -5,8 +5,10 @@
 
 #include "base/check.h"
 #include "base/overloaded.h"
+#include "compile/coarse_fields.h"
 #include "compile/emitters.h"
 #include "compile/geometry.h"
+#include "compile/hit_error.h"
 #include "compile/light_tree.h"
 #include "compile/majorant_grid.h"
 #include "compile/solids.h"
@@ -65,10 +67,18 @@ CompiledMedium compiled(const scene::Medium& medium) {
     for (std::size_t c = 0; c < 3; ++c) sigma_t[c] = program.constants[program.outputs[outputs[c]]];
     if (all_finite(sigma_t) && min_component(sigma_t) >= 0) out.constant_sigma_t = sigma_t;
   }
-  out.may_be_negative.assign(medium.full.outputs.size(), false);
-  for (const scene::PhaseLobe& lobe : medium.phase)
+  out.uses.assign(medium.full.outputs.size(), OutputUse::shown);
+  const auto mark = [&](const scene::RgbOutputs& which) {
+    for (const std::uint8_t k : which) out.uses[k] = OutputUse::coefficient;
+  };
+  for (const scene::PhaseLobe& lobe : medium.phase) {
     for (const auto& parameter : lobe.parameters)
-      if (parameter.output) out.may_be_negative[*parameter.output] = true;
+      if (parameter.output) out.uses[*parameter.output] = OutputUse::parameter;
+    if (lobe.weight.output) out.uses[*lobe.weight.output] = OutputUse::parameter;
+  }
+  mark(medium.sigma_t);
+  mark(medium.sigma_s);
+  if (medium.emission) mark(*medium.emission);
   return out;
 }
 
@@ -93,8 +103,12 @@ CompiledMaterial compiled(const scene::Material& material, double time) {
   out.opaque = !material.opacity;
   out.transmits = material.transmission.has_value();
   if (material.ior) {
-    const float ior = uniform_value(material.program, *material.ior, time);
-    if (ior >= 1 && std::isfinite(ior)) out.ior = ior;  // else a function of time has left the range
+    out.ior = uniform_value(material.program, *material.ior, time);
+    const scene::GivenNumber& given = material.given[*material.ior];
+    if (const double ior = out.ior; !given.name.empty() && !(ior >= given.lowest && ior <= given.highest)) {
+      out.bad_ior = static_cast<float>(ior);  // a function of time has left the range
+      out.ior = std::isnan(ior) ? given.lowest : std::clamp(ior, given.lowest, given.highest);
+    }
   }
   return out;
 }
@@ -105,7 +119,7 @@ std::vector<double> rough_etas(const CompiledScene& world) {
   for (std::size_t i = 0; i < world.materials.size(); ++i)
     if (world.materials[i].transmits && world.scene.materials[i].roughness)
       etas.push_back(world.materials[i].ior);
-  if (etas.empty() || !world.solids) return etas;
+  if (etas.empty() || !world.solids || world.solids->count() < 2) return etas;
   // Any two bodies may touch.
   std::vector<double> all;
   for (const CompiledMaterial& m : world.materials)
@@ -115,7 +129,6 @@ std::vector<double> rough_etas(const CompiledScene& world) {
   return etas;
 }
 
-// Bodies of glass are kept when there is something that they could overlap.
 // Whether anything differs between rays of different times.
 bool moves(const scene::Scene& scene) {
   const scene::Motion& m = scene.motion;
@@ -133,19 +146,23 @@ bool moves(const scene::Scene& scene) {
                      [](const scene::Material& material) { return material.program.reads(vm::Input::time); });
 }
 
+// Bodies of glass are kept where they may overlap each other or volumes, and where volumes have priorities
+// among themselves.
 void add_solids(CompiledScene& world) {
+  const auto ranks = volume_ranks(world.scene);
+  for (std::size_t i = 0; i < ranks.size(); ++i) world.volumes[i].rank = ranks[i];
+  const auto ranked = std::count_if(ranks.begin(), ranks.end(), [](const auto& r) { return r.has_value(); });
+  if (!world.features.glass && ranked < 2) return;
   auto solids =
       std::make_unique<const Solids>(world.scene, world.origin, world.materials, world.geometry->parts());
-  for (std::size_t i = 0; i < world.scene.volumes.size(); ++i) {
-    const scene::Volume& v = world.scene.volumes[i];
-    if (v.priority)
-      world.volumes[i].rank = SolidRank{*v.priority, v.boundary ? std::int64_t{*v.boundary} : -1};
-  }
-  const bool cuts = std::any_of(world.volumes.begin(), world.volumes.end(),
-                                [](const CompiledVolume& v) { return v.rank && v.rank->order < 0; });
-  if (solids->count() < 2 && !(cuts && solids->count() > 0)) return;
-  world.solids = std::move(solids);
-  world.features.nested_glass = world.features.see_through = true;
+  const bool cuts = std::any_of(ranks.begin(), ranks.end(), [](const auto& r) { return r && r->order < 0; });
+  const double bodies = solids->count();
+  // One body alone hides no boundary, but may stand on what is opaque.
+  const bool overlap = bodies > 1 || (cuts && bodies > 0);
+  world.features.see_through |= overlap;
+  world.features.nested_glass =
+      overlap || (bodies > 0 && !(solids->single() && !world.geometry->touches_another(*solids->single())));
+  if (world.features.nested_glass || ranked > 1) world.solids = std::move(solids);
 }
 
 Features features_of(const CompiledScene& world) {
@@ -187,22 +204,28 @@ CompiledScene::CompiledScene() = default;
 CompiledScene::~CompiledScene() = default;
 CompiledScene::CompiledScene(CompiledScene&&) noexcept = default;
 
-std::optional<SurfaceHit> CompiledScene::closest_hit(const Ray& ray, RayKind kind) const {
-  return geometry->closest_hit(ray, kind);
+std::optional<SurfaceHit> CompiledScene::closest_hit(const Ray& ray, RayKind kind,
+                                                     const HitOrder& after) const {
+  return geometry->closest_hit(ray, kind, after);
 }
 bool CompiledScene::occluded(const Ray& ray, std::uint32_t target_light) const {
   return geometry->occluded(ray, target_light);
 }
 void CompiledScene::volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const {
   geometry->volume_intervals(ray, kind, out);
-  if (solids) solids->cut(ray, volumes, out);
+  if (solids) solids->cut(ray, kind, volumes, out);
 }
 
 CompiledVolume::Place CompiledVolume::moved(double time) const {
-  const scene::Volume v = scene::at(*motion, time);
   const Transform render_from_world = Transform::translate(-origin);
-  return {v.shape, inverse_of(render_from_world * v.world_from_shape),
-          inverse_of(render_from_world * v.world_from_medium)};
+  // What is flat for one moment is taken for what it is beside it.
+  for (double beside = 0; beside < 1; beside = beside * 2 + 0x1p-20) {
+    const scene::Volume v = scene::at(*motion, time < 0.5 ? time + beside : time - beside);
+    const auto from_render = (render_from_world * v.world_from_shape).inverse(),
+               to_medium = (render_from_world * v.world_from_medium).inverse();
+    if (from_render && to_medium) return {v.shape, *from_render, *to_medium};
+  }
+  CHECK(false);  // resolve refuses transforms that flatten space
 }
 
 LightAt::LightAt(const CompiledScene& world, std::uint32_t index, double time)
@@ -214,14 +237,6 @@ LightAt::LightAt(const CompiledScene& world, std::uint32_t index, double time)
     mesh->emitter = std::get<optics::MeshLight>(*light_).emitter;
   if (auto* sky = std::get_if<optics::EnvironmentLight>(&*moved_))
     sky->sky = std::get<optics::EnvironmentLight>(*light_).sky;
-}
-
-double surface_offset(const CompiledScene& world, const Vec3d& position) {
-  constexpr double ulps = 0x1p-40;
-  double largest = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    largest = std::max({largest, std::abs(position[axis]), std::abs(position[axis] + world.origin[axis])});
-  return ulps * largest;
 }
 
 CompiledScene compile(scene::Scene scene) {
@@ -237,10 +252,17 @@ CompiledScene compile(scene::Scene scene) {
   for (const auto& light : motion.lights) light_moves[light.index] = true;
   const std::vector<std::uint32_t> glows = add_glowing_shapes(world.scene, render_from_world, world.lights);
   light_moves.resize(world.lights.size());
+  for (const optics::Light& light : world.lights) {
+    const auto* mesh = std::get_if<optics::MeshLight>(&light);
+    world.light_errors.push_back(mesh && mesh->emitter
+                                     ? largest_error(mesh->world_from_shape, mesh->emitter->center(),
+                                                     mesh->emitter->radius(), world.origin)
+                                     : 0);
+  }
   if (!motion.lights.empty()) {
     world.light_motion.resize(world.lights.size());
     for (const auto& light : motion.lights) {
-      world.light_motion[light.index] = &light.keys;
+      world.light_motion[light.index] = &light;
       if (auto* mesh = std::get_if<optics::MeshLight>(&world.lights[light.index])) mesh->drawn = false;
     }
   }
@@ -264,7 +286,7 @@ CompiledScene compile(scene::Scene scene) {
     out.origin = world.origin;
     world.volumes.push_back(std::move(out));
   }
-  for (const auto& v : motion.volumes) world.volumes[v.index].motion = &v.keys;
+  for (const auto& v : motion.volumes) world.volumes[v.index].motion = &v;
 
   for (const scene::Material& m : world.scene.materials)
     world.materials.push_back(compiled(m, world.scene.time));
@@ -273,10 +295,11 @@ CompiledScene compile(scene::Scene scene) {
   world.features = features_of(world);
   world.geometry = std::make_unique<Geometry>(world.scene, world.features, world.origin, world.lights, glows,
                                               world.volumes);
-  if (world.features.glass) add_solids(world);
+  add_solids(world);
   if (world.features.layered_surfaces)
     world.albedo_tables = std::make_unique<const optics::AlbedoTables>(rough_etas(world));
   add_grids(world);
+  world.coarse_fields = find_coarse_fields(world);
   return world;
 }
 

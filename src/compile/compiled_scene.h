@@ -9,6 +9,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +31,14 @@ struct Ray {
   double time = 0;  // a fraction of the time that the shutter is open; 0 in still scenes
 };
 
+// Hits of a ray in their order: by t, at the same t by the number of the surface in the scene (its shapes,
+// then those of its instances one after the other, then the surfaces of lights), then by its parts.
+struct HitOrder {
+  double t = 0;
+  std::uint64_t surface = std::numeric_limits<std::uint64_t>::max();
+  std::uint32_t part = std::numeric_limits<std::uint32_t>::max();
+};
+
 struct SurfaceHit {
   double t = 0;
   Vec3d position;                               // on the surface, from the shape's own equation
@@ -40,8 +49,13 @@ struct SurfaceHit {
   double time = 0;  // the ray's
   // Images of normals along the axes of object space, for materials that set normals (Features::normals).
   std::array<Vec3d, 3> normal_axes{};
-  bool sheet = false;                 // of a shape without an inside: glass is a pane
-  std::uint32_t shape = no_index;     // index of scene.shapes; no_index inside placed objects
+  bool sheet = false;  // of a shape without an inside: glass is a pane
+  // How far off the surface rays that leave it must start, on the side of the ray and behind [m].
+  double offset_before = 0, offset_behind = 0;
+  double outside_ior = 1;     // of what a body of glass stands in here
+  std::uint64_t surface = 0;  // HitOrder's
+  std::uint32_t part = 0;
+  double priority = 0;                // of the inside, where bodies of glass overlap
   std::uint32_t material = no_index;  // index of scene.materials, or no_index when a light was hit
   std::uint32_t light = no_index;     // index of lights when it is a light's surface
   std::uint32_t glow = no_index;      // index of lights when the surface's material glows and is sampled
@@ -64,8 +78,10 @@ struct Features {
        environment = false, surface_emission = false;
   // Materials: beyond matte, glass among them, less than opaque, with normals of their own.
   bool layered_surfaces = false, glass = false, see_through = false, normals = false;
-  bool nested_glass = false;  // bodies of glass that may overlap, or cut volumes
+  bool nested_glass = false;  // bodies of glass that may overlap or touch something, or cut volumes
   bool motion = false;        // rays have times of their own
+  // Of a ray more than the nearest surface may count.
+  bool walks_surfaces() const { return see_through || nested_glass; }
 };
 
 // What the renderer asks of a material besides its program.
@@ -74,20 +90,24 @@ struct CompiledMaterial {
   bool opaque = true;  // no opacity
   bool transmits = false;
   double ior = 1.5;
+  std::optional<float> bad_ior{};  // set: what the program gave at the scene's time is out of range
 };
+
+// What an output of a medium's full program is for.
+enum class OutputUse : std::uint8_t { shown, coefficient, parameter };
 
 // What marching asks of a medium besides its programs.
 struct CompiledMedium {
   bool homogeneous = false;             // one value for the whole ray: closed forms
   bool constant = false;                // and the same for all rays: no program need run at all
   std::optional<Rgb> constant_sigma_t;  // set when no program need run for transmittance [1/m]
-  std::vector<bool> may_be_negative;    // per output of the full program: the parameters of phase lobes
+  std::vector<OutputUse> uses;          // per output of the full program
 };
 
 // Of a body of glass: higher ones win; of equals the one that stands later in the scene.
 struct SolidRank {
   double priority = 0;
-  std::int64_t order = -1;  // of the scene's shapes; -1: a volume without a boundary
+  std::int64_t order = -1;  // HitOrder's number of the surface; -1: a volume without a boundary
   auto operator<=>(const SolidRank&) const = default;
 };
 
@@ -104,9 +124,9 @@ struct CompiledVolume {
   std::uint32_t grid = no_index, time_slabs = 1;
   scene::Shape shape;
   bool visible = true;
-  std::optional<SolidRank> rank{};                     // set: it gives way to bodies of glass above it
-  const std::vector<scene::Volume>* motion = nullptr;  // keys over the shutter, of those that move
-  Vec3d origin;                                        // of render space, for them
+  std::optional<SolidRank> rank{};                       // set: it gives way to bodies of glass above it
+  const scene::Moving<scene::Volume>* motion = nullptr;  // of those that move
+  Vec3d origin;                                          // of render space, for them
 
   // What of it depends on the ray's time, a fraction of the time that the shutter is open.
   std::uint32_t grid_at(double time) const {
@@ -133,6 +153,13 @@ class LightAt {
   std::optional<optics::Light> moved_;
 };
 
+// A field of a lattice that a shader asks for at places as far from 0 as `reach` (coarse_fields.h).
+struct CoarseField {
+  std::string shader, name;
+  Span span;
+  float reach = 0;
+};
+
 class Geometry;      // Embree, behind geometry.cpp
 class Solids;        // solids.h
 class MajorantGrid;  // majorant_grid.h
@@ -152,15 +179,17 @@ class CompiledScene {
   std::vector<CompiledVolume> volumes;
   // scene.lights, moved to render space; then shapes whose material glows alike everywhere.
   std::vector<optics::Light> lights;
-  std::vector<const std::vector<scene::LightInstance>*> light_motion;  // keys; empty when none moves
-  std::vector<std::uint32_t> distant_lights;                           // indices of lights
-  std::unique_ptr<const LightTree> light_tree;                         // when there are many
+  std::vector<double> light_errors;  // of each mesh light: how far off it a hit may be [m]
+  std::vector<const scene::Moving<scene::LightInstance>*> light_motion;  // empty when none moves
+  std::vector<std::uint32_t> distant_lights;                             // indices of lights
+  std::unique_ptr<const LightTree> light_tree;                           // when there are many
   std::unique_ptr<Geometry> geometry;
-  std::unique_ptr<const Solids> solids;              // when Features::nested_glass
+  std::unique_ptr<const Solids> solids;              // when Features::nested_glass or volumes have priorities
   std::vector<std::unique_ptr<MajorantGrid>> grids;  // of volumes whose medium varies; see grid_walk.h
+  std::vector<CoarseField> coarse_fields;
 
-  // The nearest surface (opaque shape or visible area light) in (t_min, ray.t_max), if any.
-  std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind) const;
+  // The nearest surface (shape or visible area light) behind `after` and before ray.t_max, if any.
+  std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind, const HitOrder& after = {}) const;
   // True when an opaque shape, or an area light other than `target_light`, blocks the segment (0, ray.t_max).
   bool occluded(const Ray& ray, std::uint32_t target_light = no_index) const;
   // Every volume interval that meets [0, t_max), appended to `out` (cleared first), in order of (t0, volume).
@@ -175,11 +204,6 @@ class CompiledScene {
   friend CompiledScene compile(scene::Scene scene);
   CompiledScene();
 };
-
-// How far a ray that leaves a surface must start off it, along the normal [m]: hits are exact to a few ulps
-// of the largest coordinate met on the way to them (render and world space), and 2^-40 is 8192 ulps of a
-// double.
-double surface_offset(const CompiledScene& world, const Vec3d& position);
 
 // Builds everything that rays need. The scene must be valid (resolve's errors were none).
 CompiledScene compile(scene::Scene scene);

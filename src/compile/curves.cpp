@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/numerics.h"
+#include "compile/hit_error.h"
 
 namespace tyndall::compile {
 
@@ -118,7 +119,8 @@ Vec3d CompiledCurves::joint(std::size_t node) const {
 }
 
 std::optional<CompiledCurves::Entry> CompiledCurves::enter(std::uint32_t i, const Vec3d& origin,
-                                                           const Vec3d& direction, double t_max) const {
+                                                           const Vec3d& direction, double t_min,
+                                                           double t_max) const {
   const Node &a = nodes_[i], &b = nodes_[i + 1];
   const Vec3d axis = b.position - a.position;
   const double length_of_axis = length(axis), speed = length(direction);
@@ -127,7 +129,7 @@ std::optional<CompiledCurves::Entry> CompiledCurves::enter(std::uint32_t i, cons
   const Vec3d middle = (a.position + b.position) * 0.5;
   const double shift = dot(middle - origin, w);
   const Vec3d o = origin + w * shift - a.position;
-  const double least = -shift, most = t_max * speed - shift;
+  const double least = t_min * speed - shift, most = t_max * speed - shift;
   std::optional<Entry> best;
   const auto offer = [&](double s, const Vec3d& q, const Vec3d& normal, const Vec3d& smooth, double part) {
     if (!(s > least && s < most) || (best && s >= best->t) || !(dot(normal, w) < 0)) return;
@@ -179,14 +181,16 @@ std::optional<CompiledCurves::Entry> CompiledCurves::enter(std::uint32_t i, cons
   return best;
 }
 
-std::optional<ShapeHit> CompiledCurves::intersect(const Vec3d& origin, const Vec3d& direction,
-                                                  double t_max) const {
+std::optional<ShapeHit> CompiledCurves::intersect(const Vec3d& origin, const Vec3d& direction, double t_max,
+                                                  const After& after) const {
   std::optional<Entry> best;
   std::uint32_t best_piece = 0;
   const auto test = [&](std::uint32_t piece) {
     const double limit = best ? std::nextafter(t_max, infinity) : t_max;
-    const auto entry = enter(pieces_[piece], origin, direction, limit);
-    if (entry && entry->t > 0 && (entry->t < t_max || (best && entry->t == t_max && piece < best_piece))) {
+    // What is met at `after` itself is looked at too: it may be of a later piece.
+    const auto entry = enter(pieces_[piece], origin, direction, std::nextafter(after.t, -infinity), limit);
+    if (entry && after.before(entry->t, piece) &&
+        (entry->t < t_max || (best && entry->t == t_max && piece < best_piece))) {
       best = entry;
       best_piece = piece;
       t_max = entry->t;
@@ -195,17 +199,19 @@ std::optional<ShapeHit> CompiledCurves::intersect(const Vec3d& origin, const Vec
     return best ? std::nextafter(t_max, infinity) : t_max;
   };
   if (tree_) {
-    tree_->visit(origin, direction, t_max, test);
+    tree_->visit(origin, direction, after.t, t_max, test);
   } else {
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) test(i);
   }
   if (!best) return std::nullopt;
-  const Node& node = nodes_[pieces_[best_piece]];
+  const Node &node = nodes_[pieces_[best_piece]], &next = nodes_[pieces_[best_piece] + 1];
   return ShapeHit{best->t,
                   best->position,
                   best->normal,
                   {place_in_set_[node.strand], static_cast<double>(best->along)},
-                  best->shading_normal};
+                  rod_reach(node.position, next.position, std::max(node.radius, next.radius)),
+                  best->shading_normal,
+                  best_piece};
 }
 
 }  // namespace tyndall::compile

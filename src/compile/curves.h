@@ -19,9 +19,10 @@ class CompiledCurves {
   // All strands of these sets, in their order; none: what is never met.
   explicit CompiledCurves(std::span<const scene::StrandSet* const> sets);
 
-  // The nearest entry with t in (0, t_max). uv: the strand's place in its set, and the part of its points
-  // from root to tip, each in [0, 1].
-  std::optional<ShapeHit> intersect(const Vec3d& origin, const Vec3d& direction, double t_max) const;
+  // The nearest entry in (after, t_max). uv: the strand's place in its set, and the part of its points from
+  // root to tip, each in [0, 1].
+  std::optional<ShapeHit> intersect(const Vec3d& origin, const Vec3d& direction, double t_max,
+                                    const After& after = {}) const;
   const Bounds& bounds() const { return bounds_; }
   std::size_t pieces() const { return pieces_.size(); }
 
@@ -44,8 +45,8 @@ class CompiledCurves {
   bool ends(std::size_t node) const {
     return node + 1 == nodes_.size() || nodes_[node + 1].strand != nodes_[node].strand;
   }
-  // The first entry of a piece, nodes i and i + 1.
-  std::optional<Entry> enter(std::uint32_t i, const Vec3d& origin, const Vec3d& direction,
+  // The first entry of a piece, nodes i and i + 1, in (t_min, t_max).
+  std::optional<Entry> enter(std::uint32_t i, const Vec3d& origin, const Vec3d& direction, double t_min,
                              double t_max) const;
 
   std::vector<Node> nodes_;

@@ -4,6 +4,7 @@
 
 #include "base/numerics.h"
 #include "base/overloaded.h"
+#include "compile/hit_error.h"
 #include "compile/strand_groups.h"
 
 namespace tyndall::compile {
@@ -49,7 +50,7 @@ Geometry::Geometry(const scene::Scene& scene, const Features& features, const Ve
       curves_(group_strands(scene, glows)),
       world_(parts(), features.normals),
       volumes_(volumes),
-      first_shape_(scene.shapes.data()) {
+      origin_(origin) {
   if (features.glass)
     for (CompiledMesh& mesh : meshes_) mesh.find_whether_closed();
   prototypes_.reserve(scene.prototypes.size());  // groups point to earlier ones
@@ -78,34 +79,34 @@ Geometry::Geometry(const scene::Scene& scene, const Features& features, const Ve
   }
 }
 
-// The keys of a light's surface, in render space; null when it stands still.
-const std::vector<scene::ShapeInstance>* Geometry::moving_light_surface(const scene::Scene& scene,
-                                                                        std::uint32_t light,
-                                                                        const Vec3d& origin) {
+// How a light's surface moves, in render space; null when it stands still.
+const scene::Moving<scene::ShapeInstance>* Geometry::moving_light_surface(const scene::Scene& scene,
+                                                                          std::uint32_t light,
+                                                                          const Vec3d& origin) {
   const auto& moving = scene.motion.lights;
   const auto found =
       std::find_if(moving.begin(), moving.end(), [&](const auto& m) { return m.index == light; });
   if (found == moving.end()) return nullptr;
-  std::vector<scene::ShapeInstance>& keys = light_surface_keys_.emplace_back();
+  scene::Moving<scene::ShapeInstance>& motion = light_surface_motions_.emplace_back();
+  motion.times = found->times;
+  motion.turnings = found->turnings;
   for (const scene::LightInstance& key : found->keys) {
-    keys.push_back(*light_surface(key, key.light));
-    keys.back().world_from_object.t -= origin;
+    motion.keys.push_back(*light_surface(key, key.light));
+    motion.keys.back().world_from_object.t -= origin;
   }
-  return &keys;
+  return &motion;
 }
 
 Bounds Geometry::volume_bounds(const CompiledVolume& v) const {
   if (!v.motion) return placed_bounds(*bounds(v.shape, parts()), v.render_from_shape);
-  const auto& keys = *v.motion;
-  return swept_bounds(keys.size(), [&](std::size_t i, std::size_t j) {
-    return placed_bounds(*bounds(keys[i].shape, parts()),
-                         Transform::translate(-v.origin) * keys[j].world_from_shape);
-  });
+  return swept_bounds(
+      *v.motion, 0, [&](const scene::Volume& at) { return *turned_bounds(at.shape, parts()); },
+      [&](const scene::Volume& at) { return Transform::translate(-v.origin) * at.world_from_shape; });
 }
 
-std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) const {
+std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind, const HitOrder& after) const {
   if (world_.empty()) return std::nullopt;
-  const auto found = world_.closest_hit({ray.origin, ray.direction, ray.t_max, ray.time}, kind);
+  const auto found = world_.closest_hit({ray.origin, ray.direction, ray.t_max, ray.time, after}, kind);
   if (!found) return std::nullopt;
   SurfaceHit hit;
   hit.t = found->t;
@@ -120,13 +121,16 @@ std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray, RayKind kind) co
   hit.uv = found->uv;
   hit.normal_axes = found->normal_axes;
   hit.sheet = found->sheet;
+  hit.offset_before = hit.offset_behind = offset_along(hit.normal, hit.position, origin_, found->error);
+  hit.surface = found->number;
+  hit.part = found->part;
+  hit.priority = found->priority;
   if (found->light != no_index) {
     hit.light = found->light;
     return hit;
   }
   hit.material = found->material.index;
   hit.glow = found->glow;
-  if (found->surface) hit.shape = static_cast<std::uint32_t>(found->surface - first_shape_);
   return hit;
 }
 
@@ -154,7 +158,7 @@ void Geometry::volume_intervals(const Ray& ray, RayKind kind, std::vector<Volume
     return ray.t_max;
   };
   if (volume_tree_) {
-    volume_tree_->visit(ray.origin, ray.direction, ray.t_max, test);
+    volume_tree_->visit(ray.origin, ray.direction, 0, ray.t_max, test);
   } else {
     for (std::uint32_t i = 0; i < volumes_.size(); ++i) test(i);
   }

@@ -22,28 +22,30 @@ class Geometry {
            std::span<const optics::Light> lights, std::span<const std::uint32_t> glows,
            std::span<const CompiledVolume> volumes);
 
-  std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind) const;
+  std::optional<SurfaceHit> closest_hit(const Ray& ray, RayKind kind, const HitOrder& after) const;
   bool occluded(const Ray& ray, std::uint32_t target_light) const;
   ShapeParts parts() const { return {meshes_, curves_}; }
   // Of any shape in its own space; nothing when it is infinite.
   std::optional<Bounds> bounds_of(const scene::Shape& shape) const { return bounds(shape, parts()); }
   void volume_intervals(const Ray& ray, RayKind kind, std::vector<VolumeInterval>& out) const;
 
+  // Whether the box of one of the scene's shapes touches that of anything else but a light.
+  bool touches_another(std::uint64_t shape) const { return world_.touches_another(shape); }
   // The box of a volume in render space, over all of its way.
   Bounds volume_bounds(const CompiledVolume& volume) const;
 
  private:
-  const std::vector<scene::ShapeInstance>* moving_light_surface(const scene::Scene& scene,
-                                                                std::uint32_t light, const Vec3d& origin);
+  const scene::Moving<scene::ShapeInstance>* moving_light_surface(const scene::Scene& scene,
+                                                                  std::uint32_t light, const Vec3d& origin);
   std::vector<CompiledMesh> meshes_;
   std::vector<CompiledCurves> curves_;
   std::vector<Group> prototypes_;
   std::vector<scene::ShapeInstance> light_surfaces_;
-  std::deque<std::vector<scene::ShapeInstance>> light_surface_keys_;
+  std::deque<scene::Moving<scene::ShapeInstance>> light_surface_motions_;
   Group world_;
   std::span<const CompiledVolume> volumes_;
   std::optional<BoundsTree> volume_tree_;
-  const scene::ShapeInstance* first_shape_;
+  Vec3d origin_;
 };
 
 }  // namespace tyndall::compile

@@ -216,9 +216,13 @@ void MajorantGrid::add_box(const Vec3d& lo, const Vec3d& hi, BoundsScratch& scra
       highest[axis] = std::max(highest[axis], center[axis] + reach);
     }
   }
+  const double off =
+      domain_.bend > 0
+          ? domain_.bend * (length((low + high) * 0.5 - domain_.pivot) + length(high - low) * 0.5)
+          : 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    scratch.world[axis].push_back(below(lowest[axis]));
-    scratch.world[axis + 3].push_back(above(highest[axis]));
+    scratch.world[axis].push_back(below(lowest[axis] - off));
+    scratch.world[axis + 3].push_back(above(highest[axis] + off));
   }
 }
 
@@ -254,8 +258,14 @@ CellBounds MajorantGrid::summary(std::size_t first, std::size_t count, std::size
   bool empty = true, uniform = true;
   for (const std::uint8_t k : coefficients_) {
     const vm::ValueBounds v = whole(k);
-    empty &=
-        !v.may_be_nan && v.lo == 0 && v.hi == 0;  // what is clamped to 0 is reported, so it is not skipped
+    empty &= !v.may_be_nan && v.lo == 0 && v.hi == 0;
+  }
+  // What is limited to 0 is told, so it is not skipped.
+  for (const scene::GivenNumber& given : medium_.given) {
+    if (!empty) break;
+    if (!given.scales) continue;
+    const vm::ValueBounds v = whole(given.output);
+    empty &= !v.may_be_nan && (v.lo >= 0 || v.hi > 0);
   }
   cell.minorant = largest_coefficient;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -24,8 +24,7 @@
 
 namespace tyndall::compile {
 
-// Shaders give no more than this; larger values are taken for infinite.
-inline constexpr float largest_coefficient = 1e30f;
+using scene::largest_coefficient;
 
 // What is proven about a cell. Empty: extinction, scattering and emission are all exactly 0, and no value is
 // bad. Uniform: every output of the program is one value to rounding.
@@ -52,10 +51,13 @@ class MajorantGrid {
   // Where a grid holds. Two volumes with the same medium and an equal domain share one.
   struct Domain {
     Bounds box;  // in the medium's space p
-    // Set when the program reads P: where p is in the world, at the ends of straight ways when it moves.
+    // Set when the program reads P: where p is in the world, at the ends of ways when it moves.
     std::vector<Transform> world_from_medium;
     Interval<float> time;     // both ends included: one slab of the shutter, or one moment
     std::uint32_t cells = 0;  // at most, over the whole box
+    // Ways are off from straight lines by no more than `bend` times the distance from `pivot`.
+    double bend = 0;
+    Vec3d pivot{};
   };
 
   // Keeps a reference to the medium. Makes no cells yet.

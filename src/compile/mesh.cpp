@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/numerics.h"
+#include "compile/hit_error.h"
 
 namespace tyndall::compile {
 
@@ -76,7 +77,8 @@ class RaySpace {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const Point2 &p = corner[(i + 1) % 3], &q = corner[(i + 2) % 3];
-      hit.weights[i] = std::abs(p.x * q.y - p.y * q.x);
+      // Accurate, so that slivers are met in their plane as well as others.
+      hit.weights[i] = std::abs(difference_of_products(p.x, q.y, p.y, q.x));
       sum += hit.weights[i];
     }
     for (std::size_t i = 0; i < 3; ++i) {
@@ -138,21 +140,23 @@ CompiledMesh::CompiledMesh(const scene::TriangleMesh& mesh)
 }
 
 template <class Test>
-void CompiledMesh::visit(const Vec3d& origin, const Vec3d& direction, double t_max, Test&& test) const {
-  if (tree_) return tree_->visit(origin, direction, t_max, test);
+void CompiledMesh::visit(const Vec3d& origin, const Vec3d& direction, double t_min, double t_max,
+                         Test&& test) const {
+  if (tree_) return tree_->visit(origin, direction, t_min, t_max, test);
   for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) test(i);
 }
 
-std::optional<ShapeHit> CompiledMesh::intersect(const Vec3d& origin, const Vec3d& direction,
-                                                double t_max) const {
+std::optional<ShapeHit> CompiledMesh::intersect(const Vec3d& origin, const Vec3d& direction, double t_max,
+                                                const After& after) const {
   const RaySpace space(origin, direction);
   std::optional<TriangleHit> best;
   std::uint32_t best_index = 0;
-  visit(origin, direction, t_max, [&](std::uint32_t index) {
+  visit(origin, direction, after.t, t_max, [&](std::uint32_t index) {
     const auto& triangle = mesh_->triangles[index];
     const auto hit =
         space.meet(mesh_->points[triangle[0]], mesh_->points[triangle[1]], mesh_->points[triangle[2]]);
-    if (hit && hit->t > 0 && (hit->t < t_max || (best && hit->t == t_max && index < best_index))) {
+    if (hit && after.before(hit->t, index) &&
+        (hit->t < t_max || (best && hit->t == t_max && index < best_index))) {
       best = hit;
       best_index = index;
       t_max = hit->t;
@@ -167,7 +171,9 @@ std::optional<ShapeHit> CompiledMesh::intersect(const Vec3d& origin, const Vec3d
   ShapeHit hit{best->t,
                mixed(mesh_->points, triangle, best->weights),
                cross(b - a, c - a),
-               {best->weights[1], best->weights[2]}};
+               {best->weights[1], best->weights[2]},
+               triangle_reach(a, b, c)};
+  hit.part = best_index;
   if (!(length_squared(hit.normal) > 0)) return std::nullopt;  // a sliver below a double's range
   if (!mesh_->uvs.empty()) hit.uv = mixed(mesh_->uvs, triangle, best->weights);
   if (!mesh_->normals.empty()) hit.shading_normal = mixed(mesh_->normals, triangle, best->weights);
@@ -183,7 +189,7 @@ void CompiledMesh::inside(const Vec3d& origin, const Vec3d& direction, double t_
   const double nearest = dot(center - origin, direction) / sqr(d), start = nearest - radius / d;
   const RaySpace space(origin, direction);
   std::vector<Crossing> crossings;
-  visit(origin + direction * start, direction, 2 * radius / d, [&](std::uint32_t index) {
+  visit(origin + direction * start, direction, 0, 2 * radius / d, [&](std::uint32_t index) {
     const auto& triangle = mesh_->triangles[index];
     const auto hit =
         space.meet(mesh_->points[triangle[0]], mesh_->points[triangle[1]], mesh_->points[triangle[2]]);

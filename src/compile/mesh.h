@@ -20,14 +20,16 @@ class CompiledMesh {
   bool closed() const { return closed_; }
   void find_whether_closed() { closed_ = scene::open_edges(*mesh_) == 0; }
 
-  std::optional<ShapeHit> intersect(const Vec3d& origin, const Vec3d& direction, double t_max) const;
+  // As intersect() of shape_queries.h.
+  std::optional<ShapeHit> intersect(const Vec3d& origin, const Vec3d& direction, double t_max,
+                                    const After& after = {}) const;
   // Appends the stays where the winding number is not zero, clipped to [0, t_max), in order.
   void inside(const Vec3d& origin, const Vec3d& direction, double t_max, std::vector<Intervald>& out) const;
   const Bounds& bounds() const { return bounds_; }
 
  private:
   template <class Test>
-  void visit(const Vec3d& origin, const Vec3d& direction, double t_max, Test&& test) const;
+  void visit(const Vec3d& origin, const Vec3d& direction, double t_min, double t_max, Test&& test) const;
 
   const scene::TriangleMesh* mesh_;
   Bounds bounds_;

@@ -18,7 +18,7 @@ struct ShapeParts {
 
 // The queries of shape_queries.h, for all shapes.
 std::optional<ShapeHit> intersect(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin,
-                                  const Vec3d& direction, double t_max);
+                                  const Vec3d& direction, double t_max, const After& after = {});
 // Whether anything is met in (0, t_max).
 bool blocks(const scene::Shape& shape, const ShapeParts& parts, const Vec3d& origin, const Vec3d& direction,
             double t_max);
@@ -38,6 +38,9 @@ void for_each_stay(const scene::Shape& shape, const ShapeParts& parts, const Vec
   if (!stay.empty()) visit(stay);
 }
 std::optional<Bounds> bounds(const scene::Shape& shape, const ShapeParts& parts);
+// Those of disks and cylinders whichever way they face, so that a box around those of two moments holds what
+// turns from one to the other.
+std::optional<Bounds> turned_bounds(const scene::Shape& shape, const ShapeParts& parts);
 // Whether curves have no strands of their own: others near them have them (strand_groups.h).
 bool strands_went_elsewhere(const scene::Shape& shape, const ShapeParts& parts);
 // Whether the shape has no inside.

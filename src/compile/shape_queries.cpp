@@ -5,6 +5,7 @@
 
 #include "base/numerics.h"
 #include "base/overloaded.h"
+#include "compile/hit_error.h"
 
 namespace tyndall::compile {
 
@@ -81,26 +82,28 @@ CylinderCrossings crossings(const scene::Cylinder& c, const Vec3d& origin, const
   return out;
 }
 
-// The crossing of an interval's ends that lies in (0, t_max), the nearer one first; negative when none does.
-double first_crossing(const Intervald& i, double t_max) {
+// The crossing of an interval's ends that lies in (t_min, t_max), the nearer one first; negative when none
+// does.
+double first_crossing(const Intervald& i, double t_min, double t_max) {
   if (i.empty()) return -1;
-  if (i.lo > 0) return i.lo < t_max ? i.lo : -1;
-  return i.hi > 0 && i.hi < t_max ? i.hi : -1;
+  if (i.lo > t_min) return i.lo < t_max ? i.lo : -1;
+  return i.hi > t_min && i.hi < t_max ? i.hi : -1;
 }
 
-std::optional<ShapeHit> hit(const scene::Sphere& s, const Vec3d& origin, const Vec3d& direction,
+std::optional<ShapeHit> hit(const scene::Sphere& s, const Vec3d& origin, const Vec3d& direction, double t_min,
                             double t_max) {
-  const double t = first_crossing(crossings(s, origin, direction), t_max);
+  const double t = first_crossing(crossings(s, origin, direction), t_min, t_max);
   if (t < 0) return std::nullopt;
   const Vec3d normal = normalize(origin + direction * t - s.center);
   const Pair<double> uv{0.5 + std::atan2(normal.x, normal.z) / (2 * pi),
                         0.5 + std::asin(std::clamp(normal.y, -1.0, 1.0)) / pi};
-  return ShapeHit{t, s.center + normal * s.radius, normal, uv};
+  return ShapeHit{t, s.center + normal * s.radius, normal, uv, reach(s)};
 }
 
-std::optional<ShapeHit> hit(const scene::Box& b, const Vec3d& origin, const Vec3d& direction, double t_max) {
+std::optional<ShapeHit> hit(const scene::Box& b, const Vec3d& origin, const Vec3d& direction, double t_min,
+                            double t_max) {
   const Intervald i = crossings(b, origin, direction);
-  const double t = first_crossing(i, t_max);
+  const double t = first_crossing(i, t_min, t_max);
   if (t < 0) return std::nullopt;
   const bool entering = t == i.lo;
   // Through the first face that lies there.
@@ -116,31 +119,33 @@ std::optional<ShapeHit> hit(const scene::Box& b, const Vec3d& origin, const Vec3
   normal[axis] = at_max ? 1 : -1;
   const int a = (axis + 1) % 3, c = (axis + 2) % 3;
   const Vec3d size = b.max - b.min;
-  return ShapeHit{
-      t, position, normal, {(position[a] - b.min[a]) / size[a], (position[c] - b.min[c]) / size[c]}};
+  const Pair<double> uv{(position[a] - b.min[a]) / size[a], (position[c] - b.min[c]) / size[c]};
+  return ShapeHit{t, position, normal, uv, reach(b)};
 }
 
-std::optional<ShapeHit> hit(const scene::Plane& p, const Vec3d& origin, const Vec3d& direction,
+std::optional<ShapeHit> hit(const scene::Plane& p, const Vec3d& origin, const Vec3d& direction, double t_min,
                             double t_max) {
   const double slope = dot(p.normal, direction);
   const double t = dot(p.normal, p.point - origin) / slope;
-  if (!(t > 0 && t < t_max)) return std::nullopt;  // also a parallel ray, whose t is infinite or NaN
-  const Vec3d position = origin + direction * t;
-  const Frame<double> frame = Frame<double>::around(normalize(p.normal));
-  return ShapeHit{
-      t, position, p.normal, {dot(frame.x, position - p.point), dot(frame.y, position - p.point)}};
+  if (!(t > t_min && t < t_max)) return std::nullopt;  // also a parallel ray, whose t is infinite or NaN
+  const Vec3d normal = normalize(p.normal);
+  const Vec3d met = origin + direction * t, position = met - normal * dot(normal, met - p.point);
+  const Frame<double> frame = Frame<double>::around(normal);
+  const Pair<double> uv{dot(frame.x, position - p.point), dot(frame.y, position - p.point)};
+  return ShapeHit{t, position, p.normal, uv, reach(p, position)};
 }
 
-std::optional<ShapeHit> hit(const scene::Quad& q, const Vec3d& origin, const Vec3d& direction, double t_max) {
+std::optional<ShapeHit> hit(const scene::Quad& q, const Vec3d& origin, const Vec3d& direction, double t_min,
+                            double t_max) {
   const Vec3d normal = cross(q.u, q.v);
   const double t = dot(normal, q.center - origin) / dot(normal, direction);
-  if (!(t > 0 && t < t_max)) return std::nullopt;
+  if (!(t > t_min && t < t_max)) return std::nullopt;
   // Coordinates along u and v from the dual basis: u and v need not be perpendicular.
   const Vec3d from_center = origin + direction * t - q.center;
   const double n2 = length_squared(normal);
   const double a = dot(cross(from_center, q.v), normal) / n2, b = dot(cross(q.u, from_center), normal) / n2;
   if (!(std::abs(a) <= 1 && std::abs(b) <= 1)) return std::nullopt;
-  return ShapeHit{t, q.center + q.u * a + q.v * b, normal, {(a + 1) / 2, (b + 1) / 2}};
+  return ShapeHit{t, q.center + q.u * a + q.v * b, normal, {(a + 1) / 2, (b + 1) / 2}, reach(q)};
 }
 
 // Coordinates across a disk, 0.5 in its middle.
@@ -149,20 +154,21 @@ Pair<double> disk_uv(const Vec3d& unit_normal, const Vec3d& from_center, double 
   return {0.5 + dot(frame.x, from_center) / (2 * radius), 0.5 + dot(frame.y, from_center) / (2 * radius)};
 }
 
-std::optional<ShapeHit> hit(const scene::Disk& k, const Vec3d& origin, const Vec3d& direction, double t_max) {
+std::optional<ShapeHit> hit(const scene::Disk& k, const Vec3d& origin, const Vec3d& direction, double t_min,
+                            double t_max) {
   const double t = dot(k.normal, k.center - origin) / dot(k.normal, direction);
-  if (!(t > 0 && t < t_max)) return std::nullopt;
+  if (!(t > t_min && t < t_max)) return std::nullopt;
   const Vec3d normal = normalize(k.normal), off = origin + direction * t - k.center;
   const Vec3d from_center = off - normal * dot(normal, off);
   if (!(length_squared(from_center) <= sqr(k.radius))) return std::nullopt;
-  return ShapeHit{t, k.center + from_center, normal, disk_uv(normal, from_center, k.radius)};
+  return ShapeHit{t, k.center + from_center, normal, disk_uv(normal, from_center, k.radius), reach(k)};
 }
 
 // uv of the side is (angle, height), each in [0, 1]; of the ends as on a disk.
 std::optional<ShapeHit> hit(const scene::Cylinder& c, const Vec3d& origin, const Vec3d& direction,
-                            double t_max) {
+                            double t_min, double t_max) {
   const CylinderCrossings i = crossings(c, origin, direction);
-  const double t = first_crossing(i.inside, t_max);
+  const double t = first_crossing(i.inside, t_min, t_max);
   if (t < 0) return std::nullopt;
   const bool entering = t == i.inside.lo;
   const Vec3d off = origin + direction * t - c.from;
@@ -171,18 +177,23 @@ std::optional<ShapeHit> hit(const scene::Cylinder& c, const Vec3d& origin, const
   if (entering ? i.entry_end : i.exit_end) {
     const bool at_to = (dot(direction, i.axis) > 0) != entering;
     const Vec3d normal = at_to ? i.axis : -i.axis;
-    return ShapeHit{t, (at_to ? c.to : c.from) + across, normal, disk_uv(normal, across, c.radius)};
+    return ShapeHit{t, (at_to ? c.to : c.from) + across, normal, disk_uv(normal, across, c.radius), reach(c)};
   }
   const Vec3d normal = normalize(across);
   const Frame<double> frame = Frame<double>::around(i.axis);
   const double angle = std::atan2(dot(frame.y, normal), dot(frame.x, normal)) / (2 * pi);
-  return ShapeHit{t, c.from + i.axis * along + normal * c.radius, normal, {0.5 + angle, along / i.height}};
+  const Vec3d position = c.from + i.axis * along + normal * c.radius;
+  return ShapeHit{t, position, normal, {0.5 + angle, along / i.height}, reach(c)};
 }
 
 // Meshes are asked with their trees: see mesh.h.
-std::optional<ShapeHit> hit(const scene::Mesh&, const Vec3d&, const Vec3d&, double) { return std::nullopt; }
+std::optional<ShapeHit> hit(const scene::Mesh&, const Vec3d&, const Vec3d&, double, double) {
+  return std::nullopt;
+}
 Intervald stay(const scene::Mesh&, const Vec3d&, const Vec3d&) { return {}; }
-std::optional<ShapeHit> hit(const scene::Curves&, const Vec3d&, const Vec3d&, double) { return std::nullopt; }
+std::optional<ShapeHit> hit(const scene::Curves&, const Vec3d&, const Vec3d&, double, double) {
+  return std::nullopt;
+}
 Intervald stay(const scene::Curves&, const Vec3d&, const Vec3d&) { return {}; }
 
 Intervald stay(const scene::Sphere& s, const Vec3d& origin, const Vec3d& direction) {
@@ -209,8 +220,8 @@ Vec3d disk_extent(const Vec3d& normal, double radius) {
 }  // namespace
 
 std::optional<ShapeHit> intersect(const scene::Shape& shape, const Vec3d& origin, const Vec3d& direction,
-                                  double t_max) {
-  return std::visit([&](const auto& s) { return hit(s, origin, direction, t_max); }, shape);
+                                  double t_max, const After& after) {
+  return std::visit([&](const auto& s) { return hit(s, origin, direction, after.t, t_max); }, shape);
 }
 
 bool blocks(const scene::Shape& shape, const Vec3d& origin, const Vec3d& direction, double t_max) {
@@ -220,9 +231,9 @@ bool blocks(const scene::Shape& shape, const Vec3d& origin, const Vec3d& directi
         // Of a closed shape where it is met tells enough: no place, normal or coordinates.
         if constexpr (std::is_same_v<Shape, scene::Sphere> || std::is_same_v<Shape, scene::Box> ||
                       std::is_same_v<Shape, scene::Cylinder>)
-          return first_crossing(stay(s, origin, direction), t_max) >= 0;
+          return first_crossing(stay(s, origin, direction), 0, t_max) >= 0;
         else
-          return hit(s, origin, direction, t_max).has_value();
+          return hit(s, origin, direction, 0, t_max).has_value();
       },
       shape);
 }

@@ -2,8 +2,8 @@
 // others give way. Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images" (JGT 2002), but asked
 // of the scene at each point instead of carried along the path: so cameras and lights may stand inside.
 //
-// Bodies are the scene's own closed shapes of glass, the boundaries of volumes among them; those inside
-// placed objects do not take part.
+// Bodies are the closed shapes of glass, the boundaries of volumes and those inside placed objects among
+// them.
 #pragma once
 
 #include <cstdint>
@@ -12,41 +12,43 @@
 #include <vector>
 
 #include "compile/compiled_scene.h"
+#include "compile/group.h"
 #include "compile/parts.h"
 
 namespace tyndall::compile {
 
 class Solids {
  public:
+  // Keeps pointers to the scene's things and to the materials, which must not move.
   Solids(const scene::Scene& scene, const Vec3d& origin, std::span<const CompiledMaterial> materials,
          const ShapeParts& parts);
-  std::size_t count() const { return list_.size(); }
+  // Those of placed objects counted where they stand.
+  double count() const { return count_; }
+  // The one body, by its number among the scene's own shapes.
+  std::optional<std::uint64_t> single() const { return single_; }
 
-  // The highest of the bodies at a point of render space, other than the shape `except`.
+  // The highest of the bodies at a point of render space, of those that rays of a kind meet.
   struct Holder {
     SolidRank rank;
     double ior = 1;
+    std::uint32_t material = 0;
   };
-  std::optional<Holder> at(const Vec3d& position, double time, std::uint32_t except) const;
+  std::optional<Holder> at(const Vec3d& position, double time, RayKind kind) const;
 
-  // Takes out of the stays of volumes with a priority what lies in bodies above them.
-  void cut(const Ray& ray, std::span<const CompiledVolume> volumes,
+  // Takes out of the stays of volumes with a priority what lies in bodies above them, and in other volumes of
+  // a higher priority.
+  void cut(const Ray& ray, RayKind kind, std::span<const CompiledVolume> volumes,
            std::vector<VolumeInterval>& intervals) const;
 
  private:
-  struct Solid {
-    const scene::Shape* shape;
-    Transform shape_from_render;
-    SolidRank rank;
-    double ior;
-    const std::vector<scene::ShapeInstance>* motion;  // keys over the shutter; null: it stands still
-  };
-  // Calls visit(shape, shape_from_render) for the body as it is at a ray's time.
-  template <class Visit>
-  void placed(const Solid& solid, double time, Visit&& visit) const;
-  std::vector<Solid> list_;
-  ShapeParts parts_;
-  Vec3d origin_;
+  std::span<const CompiledMaterial> materials_;
+  std::vector<Group> prototypes_;
+  Group world_;
+  double count_ = 0;
+  std::optional<std::uint64_t> single_;
 };
+
+// Of all_volumes(scene): their ranks among the bodies, where they have a priority.
+std::vector<std::optional<SolidRank>> volume_ranks(const scene::Scene& scene);
 
 }  // namespace tyndall::compile

@@ -24,16 +24,18 @@ bool reads_world(const vm::Program& program) {
 // that the medium is in between. A power of two: where one ends is exact.
 constexpr std::uint32_t time_slabs = 8;
 
-// Where the medium's space is in the world in a part of the time that the shutter is open: at the ends of the
-// straight ways that it goes.
-std::vector<Transform> ways(const std::vector<scene::Volume>& keys, const Interval<double>& part) {
-  std::vector<Transform> out{scene::at(keys, part.lo).world_from_medium};
-  for (std::size_t k = 1; k + 1 < keys.size(); ++k) {
-    const double key = static_cast<double>(k) / static_cast<double>(keys.size() - 1);
-    if (part.lo < key && key < part.hi) out.push_back(keys[k].world_from_medium);
-  }
-  out.push_back(scene::at(keys, part.hi).world_from_medium);
-  return out;
+// Number of a volume's transform from its medium to the world.
+constexpr std::size_t of_medium = 1;
+
+// Lets the domain know where the medium's space is in the world in a part of the time that the shutter is
+// open: at the ends of ways that are straight but for the bend.
+void set_way(MajorantGrid::Domain& domain, const scene::Moving<scene::Volume>& motion,
+             const Interval<double>& part) {
+  domain.world_from_medium.clear();
+  for (const double moment : scene::moments(motion, part.lo, part.hi))
+    domain.world_from_medium.push_back(scene::at(motion, moment).world_from_medium);
+  domain.bend = scene::bend(motion, of_medium);
+  if (domain.bend > 0) domain.pivot = motion.turnings[of_medium].pivot;
 }
 
 // The box moved outward to a lattice of 2^-20 of its size: instances of one prototype, whose transforms round
@@ -79,23 +81,34 @@ double widest_step(const Bounds& in_world) {
 
 // Where the medium's space is looked into, at any time of the shutter.
 Bounds box_in_medium(const CompiledScene& world, const CompiledVolume& volume) {
-  const auto at = [&](double time) {
-    const CompiledVolume::Place now = volume.moved(time);
-    const auto render_from_shape = now.shape_from_render.inverse();
-    CHECK(render_from_shape.has_value());
-    return placed_bounds(*world.geometry->bounds_of(now.shape), now.medium_from_render * *render_from_shape);
-  };
-  if (!volume.motion)
-    return placed_bounds(*world.geometry->bounds_of(volume.shape),
-                         volume.medium_from_render * volume.render_from_shape);
-  // A shape that moves within its medium goes a way that is no straight one: many moments of it, and room.
-  constexpr int moments = 16;  // from one key to the next
-  const int all = moments * static_cast<int>(volume.motion->size() - 1);
-  const Bounds first = at(0);
-  Bounds swept = first;
-  for (int k = 1; k <= all; ++k) swept = united(swept, at(k / double(all)));
-  const Vec3d room = (swept.hi - swept.lo - (first.hi - first.lo)) * (1.0 / moments);
-  return {swept.lo - room, swept.hi + room};
+  const Bounds still = placed_bounds(*world.geometry->bounds_of(volume.shape),
+                                     volume.medium_from_render * volume.render_from_shape);
+  if (!volume.motion) return still;
+  // A shape that moves within its medium goes a way that has no simple form: many moments of it, and the room
+  // that a parabola through three of them would take.
+  constexpr int pieces = 16;  // from one moment to the next
+  const std::vector<double> moments = scene::moments(*volume.motion);
+  std::optional<Bounds> swept;
+  std::array<Bounds, 2> before{};
+  Vec3d room;
+  int seen = 0;
+  for (std::size_t k = 0; k + 1 < moments.size(); ++k)
+    for (int i = k == 0 ? 0 : 1; i <= pieces; ++i) {
+      const scene::Volume now =
+          scene::at(*volume.motion, moments[k] + (moments[k + 1] - moments[k]) * i / pieces);
+      const auto medium_from_world = now.world_from_medium.inverse();
+      if (!medium_from_world) continue;  // flat for this moment
+      const Bounds box = placed_bounds(*turned_bounds(now.shape, world.geometry->parts()),
+                                       *medium_from_world * now.world_from_shape);
+      swept = swept ? united(*swept, box) : box;
+      for (int axis = 0; axis < 3 && seen >= 2; ++axis)
+        for (const auto end : {&Bounds::lo, &Bounds::hi})
+          room[axis] = std::max(
+              room[axis], std::abs((box.*end)[axis] - 2 * (before[1].*end)[axis] + (before[0].*end)[axis]));
+      before = {before[1], box};
+      ++seen;
+    }
+  return {swept->lo - room, swept->hi + room};
 }
 
 // Walking through a grid costs about as much as marching a few dozen cheap segments.
@@ -143,7 +156,7 @@ void add_grids(CompiledScene& world) {
       }
       const Interval<double> part{slab / double(volume.time_slabs), (slab + 1) / double(volume.time_slabs)};
       domain.time = {world.seconds_at(part.lo), world.seconds_at(part.hi)};
-      if (sweeps) domain.world_from_medium = ways(*volume.motion, part);
+      if (sweeps) set_way(domain, *volume.motion, part);
       domains.push_back(domain);
       media.push_back(volume.medium);
     }

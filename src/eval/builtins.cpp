@@ -1,6 +1,8 @@
 // Calls of built-ins: binds the arguments to the row's parameters and hands them to the row's handler.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/check.h"
 #include "eval/calls.h"
 #include "eval/operators.h"
@@ -54,6 +56,50 @@ void report_option_without_name(Evaluator& ev, const vm::Builtin& row, const Syn
            fmt::format("write {}", fmt::join(calls, " or ")));
 }
 
+// translate(1, 2, 3) with the parentheses that it lacks, translate((1, 2, 3)); empty where three arguments in
+// a row make no vec.
+static std::string with_inner_parentheses(CallSite& site) {
+  const auto written = site.written();
+  const vm::Builtin& row = *site.entry.row;
+  std::vector<std::string> arguments;
+  std::size_t next = 0;
+  for (const vm::BuiltinParameter& parameter : row.parameters) {
+    const bool vec = parameter.type.find("vec") != std::string_view::npos;
+    if (next == written.size() || parameter.named) break;
+    std::vector<std::string> parts;
+    while (next < written.size() && parts.size() < (vec ? 3 : 1))
+      parts.push_back(in_short(site.ev, site.tree[written[next++].value]));
+    if (vec && parts.size() < 3) return {};
+    const std::string joined = fmt::format("{}", fmt::join(parts, ", "));
+    arguments.push_back(vec ? fmt::format("({})", joined) : joined);
+  }
+  const bool all_used = next == written.size() && next > arguments.size();
+  return all_used ? fmt::format("{}({})", row.name, fmt::join(arguments, ", ")) : std::string{};
+}
+
+// True after reporting translate(x: 1, …).
+static bool report_named_components(Evaluator& ev, const vm::Builtin& row, const Name& name) {
+  const std::string_view word = ev.text(name.symbol);
+  const bool vec = row.parameters.size() == 1 && row.parameters[0].type.ends_with("vec");
+  if (!vec || (word != "x" && word != "y" && word != "z")) return false;
+  ev.error(name.span, fmt::format("'{}' has no parameter '{}'", row.name, word),
+           fmt::format("write {}((x, y, z))", row.name));
+  return true;
+}
+
+// True after reporting numbers, at `place` one too many, that are meant as one vec.
+static bool report_flat_vec(CallSite& site, Span place) {
+  const auto written = site.written();
+  const Type first = site.arguments[0].type;
+  const bool named = std::any_of(written.begin(), written.end(),
+                                 [](const Argument& argument) { return argument.name.symbol.valid(); });
+  const std::string meant = named || first != Type::number ? "" : with_inner_parentheses(site);
+  if (meant.empty()) return false;
+  site.ev.error(place, fmt::format("'{}' takes a vec as one argument", site.name()),
+                fmt::format("write it with parentheses of its own: {}", meant));
+  return true;
+}
+
 Value call_builtin(Evaluator& ev, const BuiltinEntry& entry, const SyntaxTree& tree, const CallExpr& call,
                    Span span, const std::shared_ptr<Scope>& scope) {
   const vm::Builtin& row = *entry.row;
@@ -71,14 +117,20 @@ Value call_builtin(Evaluator& ev, const BuiltinEntry& entry, const SyntaxTree& t
       if (index == entry.parameters.size()) {
         std::vector<std::string_view> names;
         for (const vm::BuiltinParameter& parameter : row.parameters) names.push_back(parameter.name);
-        report_unknown_parameter(ev, row.name, argument.name, names, {});
         ev.check_names(tree, argument.value, scope);
         failed = true;
+        if (report_named_components(ev, row, argument.name)) break;
+        report_unknown_parameter(ev, row.name, argument.name, names, {});
         continue;
       }
     } else if (position++ >= entry.parameters.size()) {
+      if (report_flat_vec(site, place)) return {};
       return ev.error(place, fmt::format("too many arguments for '{}'", row.name), signature(row));
     } else if (row.parameters[index].named) {
+      if (report_flat_vec(site, place)) return {};
+      bool has_place = true;
+      site.as(Type::vec, 0, has_place);
+      if (!has_place) return {};
       report_option_without_name(ev, row, tree, argument.value);
       ev.check_names(tree, argument.value, scope);
       failed = true;

@@ -1,9 +1,9 @@
 // keys(x, [k, v], …, ease: smooth): a value that passes through v where x is k.
 #include <fmt/format.h>
 
+#include "base/transform_mix.h"
 #include "eval/calls.h"
 #include "eval/operators.h"
-#include "eval/transform_mix.h"
 
 namespace tyndall::eval {
 

@@ -76,12 +76,6 @@ std::optional<Field> read_field(CallSite& site) {
   return field;
 }
 
-// A number as it is written, with its sign.
-bool is_literal(const syntax::SyntaxTree& tree, syntax::ExprId id) {
-  const auto* sign = std::get_if<syntax::UnaryExpr>(&tree[id].node);
-  return std::holds_alternative<syntax::NumberExpr>(tree[sign ? sign->operand : id].node);
-}
-
 // sin(30): as for rotate_y(30), nothing says whether degrees are meant. What is computed, sin(2 * pi * x), is
 // in radians.
 Value bare_angle(CallSite& site) {
@@ -95,14 +89,12 @@ Value bare_angle(CallSite& site) {
            : "an angle is written 30deg or 0.5rad");
 }
 
-Op next(Op op, int steps) { return static_cast<Op>(static_cast<int>(op) + steps); }
-
 }  // namespace
 
 Value call_componentwise(CallSite& site) {
   const vm::Builtin& row = *site.entry.row;
   const std::size_t n = row.parameters.size();
-  const Op op = row.op;
+  const Op op = row.op();
   // The last argument of mix is a weight: a number also between angles and phase functions.
   const std::size_t mixed = op == Op::mix ? n - 1 : n;
   if (op == Op::mix && site.arguments[0].type == Type::phase && site.arguments[1].type == Type::phase)
@@ -145,7 +137,7 @@ Value call_angle_to_number(CallSite& site) {
     return wrong_argument(site, 0, "an angle or a number in radians");
   if (found == Type::number && is_literal(site.tree, site.written()[0].value)) return bare_angle(site);
   return Value::of(Type::number,
-                   {site.ev.emit(site.entry.row->op, {site.arguments[0].scalars[0]}, site.span)});
+                   {site.ev.emit(site.entry.row->op(), {site.arguments[0].scalars[0]}, site.span)});
 }
 
 Value call_number_to_angle(CallSite& site) {
@@ -154,8 +146,8 @@ Value call_number_to_angle(CallSite& site) {
   bool ok = true;
   for (std::size_t i = 0; i < n; ++i) operands[i] = site.as(Type::number, i, ok).scalars[0];
   if (!ok) return {};
-  return Value::of(Type::angle, {site.ev.emit(site.entry.row->op, std::span<const Scalar>(operands.data(), n),
-                                              site.span)});
+  return Value::of(Type::angle, {site.ev.emit(site.entry.row->op(),
+                                              std::span<const Scalar>(operands.data(), n), site.span)});
 }
 
 Value call_length(CallSite& site) {
@@ -172,7 +164,7 @@ Value call_length(CallSite& site) {
 Value call_field(CallSite& site) {
   const std::optional<Field> field = read_field(site);
   if (!field) return {};
-  const Op op = next(site.entry.row->op, field->operands.size() == 4 ? 1 : 0);
+  const Op op = site.entry.row->ops[field->operands.size() == 4 ? 1 : 0];
   return Value::of(Type::number, {site.ev.emit(op, field->operands, site.span, field->octaves, field->seed)});
 }
 
@@ -180,10 +172,10 @@ Value call_vector_field(CallSite& site) {
   const std::optional<Field> field = read_field(site);
   if (!field) return {};
   Value result = Value::of(Type::vec, {});
-  for (int i = 0; i < 3; ++i)
-    result.scalars[static_cast<std::size_t>(i)] =
-        site.ev.emit(next(site.entry.row->op, i + (field->operands.size() == 4 ? 3 : 0)), field->operands,
-                     site.span, field->octaves, field->seed);
+  const std::size_t first = field->operands.size() == 4 ? 3 : 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    result.scalars[i] =
+        site.ev.emit(site.entry.row->ops[first + i], field->operands, site.span, field->octaves, field->seed);
   return result;
 }
 

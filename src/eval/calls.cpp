@@ -3,12 +3,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <unordered_map>
+
 #include "base/check.h"
 #include "eval/name_walk.h"
 
 namespace tyndall::eval {
 
 using namespace syntax;
+
+bool is_literal(const SyntaxTree& tree, ExprId id) {
+  const auto* sign = std::get_if<UnaryExpr>(&tree[id].node);
+  return std::holds_alternative<NumberExpr>(tree[sign ? sign->operand : id].node);
+}
 
 std::vector<std::string_view> parameter_names(const Evaluator& ev, std::span<const Parameter> parameters) {
   std::vector<std::string_view> names;
@@ -31,6 +39,33 @@ void report_unknown_parameter(Evaluator& ev, std::string_view callee, const Name
            guess.empty() ? listed(parameters) : guess, std::move(notes));
 }
 
+namespace {
+
+// Where parameters stand by their names; of many, a table is made when the first is asked for.
+class ParameterPlaces {
+ public:
+  explicit ParameterPlaces(std::span<const Parameter> parameters) : parameters_(parameters) {}
+
+  // The number of the parameter, or of all of them if there is none of that name.
+  std::size_t find(SymbolId symbol) {
+    constexpr std::size_t few = 16;
+    const auto has_name = [&](const Parameter& p) { return p.name.symbol == symbol; };
+    if (parameters_.size() <= few)
+      return static_cast<std::size_t>(std::find_if(parameters_.begin(), parameters_.end(), has_name) -
+                                      parameters_.begin());
+    if (table_.empty())
+      for (std::size_t i = 0; i < parameters_.size(); ++i) table_.try_emplace(parameters_[i].name.symbol, i);
+    const auto found = table_.find(symbol);
+    return found == table_.end() ? parameters_.size() : found->second;
+  }
+
+ private:
+  std::span<const Parameter> parameters_;
+  std::unordered_map<SymbolId, std::size_t> table_;
+};
+
+}  // namespace
+
 std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tree, ListRef parameter_list,
                                                  const std::shared_ptr<const Scope>& definition_scope,
                                                  const SyntaxTree& call_tree, ListRef argument_list,
@@ -40,6 +75,7 @@ std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tr
   const auto arguments = call_tree.list_of_arguments(argument_list);
   constexpr std::size_t absent = static_cast<std::size_t>(-1);
   std::vector<std::size_t> argument_of(parameters.size(), absent);
+  ParameterPlaces places(parameters);
   bool failed = false;
   std::size_t position = 0;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -47,8 +83,7 @@ std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tr
     const Span span = argument.name.symbol.valid() ? argument.name.span : call_tree[argument.value].span;
     std::size_t index = position;
     if (argument.name.symbol.valid()) {
-      index = 0;
-      while (index < parameters.size() && parameters[index].name.symbol != argument.name.symbol) ++index;
+      index = places.find(argument.name.symbol);
       if (index == parameters.size()) {
         report_unknown_parameter(*this, callee, argument.name, parameter_names(*this, parameters),
                                  parameters.empty() ? Span{} : parameters[0].name.span);
@@ -57,8 +92,10 @@ std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tr
         continue;
       }
     } else if (position++ >= parameters.size()) {
+      const bool numbers = arguments.size() >= 3 && is_literal(call_tree, arguments[0].value);
       error(span, fmt::format("too many arguments for '{}'", callee),
-            listed(parameter_names(*this, parameters)));
+            listed(parameter_names(*this, parameters)) +
+                (numbers ? "; a point is one argument, with parentheses of its own: (x, y, z)" : ""));
       failed = true;
       break;
     }
@@ -99,10 +136,18 @@ Value Evaluator::call(const Function& function, const SyntaxTree& tree, const Ca
   if (!item)
     return error(span, fmt::format("'{}' places things and gives no value", name),
                  "call it as a statement of its own");
-  for (const Frame& frame : frames_)
-    if (frame.item == function.item)
-      return error(span, fmt::format("'{}' calls itself", text(item->name.symbol)),
-                   "functions may not; use a for loop", {{item->name.span, "defined here"}});
+  for (const Frame& frame : frames_) {
+    if (frame.item != function.item) continue;
+    // Its own name in its own text was told where it is defined.
+    const Span& own = function.item->span;
+    const bool told = name == text(item->name.symbol) && own.source == span.source &&
+                      own.begin <= span.begin && span.end <= own.end;
+    if (told) return ++errors_reported_, Value{};
+    return error(span, fmt::format("'{}' calls itself", text(item->name.symbol)),
+                 "functions may not; use a for loop", {{item->name.span, "defined here"}});
+  }
+  if (item->value.valid() && item->steps.valid())  // its '=' is missing, which was told
+    return ++errors_reported_, Value{};
   if (static_cast<int>(frames_.size()) >= max_call_depth)
     return error(span, fmt::format("more than {} functions inside each other", max_call_depth));
   const std::shared_ptr<Scope> inner = bind_arguments(*function.tree, item->parameters, function.scope, tree,

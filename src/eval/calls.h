@@ -28,6 +28,8 @@ struct CallSite {
   std::string what(std::size_t i) const;
 };
 
+// Whether an expression is a number as it is written, with its sign.
+bool is_literal(const syntax::SyntaxTree& tree, syntax::ExprId id);
 std::vector<std::string_view> parameter_names(const Evaluator& evaluator,
                                               std::span<const syntax::Parameter> parameters);
 // An argument for a parameter that `callee` does not have; `definition` is where it has its parameters, if

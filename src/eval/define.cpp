@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "base/check.h"
 #include "base/numerics.h"
 #include "eval/evaluator.h"
 #include "eval/name_walk.h"
+#include "syntax/foreign_words.h"
 
 namespace tyndall::eval {
 
@@ -169,13 +171,17 @@ Value Evaluator::unknown_name(SymbolId symbol, Span span, const Scope* scope,
     return error(span, fmt::format("'{}' is known only inside a medium or material", word),
                  frames_.empty() ? "" : "pass it as an argument");
   }
-  if (context_.unread.may_define(symbol)) {
+  if (context_.unread.may_define(symbol) || !context_.told_unknown.insert(symbol).second) {
     ++errors_reported_;
     return {};
   }
+  if (context_.diagnostics->full())
+    return error_once(span, fmt::format("nothing is named '{}' here", word), {}, {});
   if (const auto elsewhere = context_.defined_elsewhere(symbol, span))
     return error_once(span, fmt::format("nothing is named '{}' here", word), std::string(elsewhere->help),
                       {{elsewhere->place, fmt::format("'{}' is defined here", word)}});
+  if (const std::string_view help = help_for_foreign_word(ForeignUse::value, word); !help.empty())
+    return error_once(span, fmt::format("nothing is named '{}' here", word), std::string(help), {});
   // Those that nothing uses first: one of them may have been meant.
   std::vector<std::string_view> candidates;
   for (const bool used : {false, true})
@@ -198,16 +204,8 @@ Value Evaluator::unknown_name(SymbolId symbol, Span span, const Scope* scope,
                     std::move(notes));
 }
 
-// True for values that may hold the scope they are bound in: definitions, bodies, shapes, and lists of them.
-static bool holds_scope(const Value& value) {
-  if (const auto* list = value.get<std::vector<Value>>())
-    return std::any_of(list->begin(), list->end(), holds_scope);
-  return value.get<Function>() || value.get<Body>() || value.get<ShapeLiteral>() ||
-         value.get<ObjectDefinition>();
-}
-
 void Evaluator::hold(const Scope& scope, const Value& value) {
-  if (!holds_scope(value)) return;
+  if (!value.holds_scope()) return;
   auto& kept = context_.names->scopes_with_definitions;
   if (kept.empty() || kept.back().get() != &scope) kept.push_back(scope.shared_from_this());
 }
@@ -255,17 +253,16 @@ void Evaluator::bind(const std::shared_ptr<Scope>& scope, Binding binding) {
 }
 
 void Evaluator::check_parameters(const SyntaxTree& tree, ListRef list, const BodyKind* body) {
-  const auto parameters = tree.list_of_parameters(list);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const Name& name = parameters[i].name;
+  std::unordered_map<SymbolId, Span> places;
+  for (const Parameter& parameter : tree.list_of_parameters(list)) {
+    const Name& name = parameter.name;
     const Special special = names().special(name.symbol);
     if (special == Special::time || special == Special::frame || (body && has_input(*body, special)))
       error(name.span, fmt::format("'{}' cannot be redefined here", text(name.symbol)),
             "choose another name");
-    for (std::size_t k = 0; k < i; ++k)
-      if (parameters[k].name.symbol == name.symbol)
-        error(name.span, fmt::format("'{}' is defined twice", text(name.symbol)), "choose another name",
-              {{parameters[k].name.span, "the first is here"}});
+    if (const auto [first, is_new] = places.try_emplace(name.symbol, name.span); !is_new)
+      error(name.span, fmt::format("'{}' is defined twice", text(name.symbol)), "choose another name",
+            {{first->second, "the first is here"}});
   }
 }
 
@@ -278,13 +275,13 @@ std::string Evaluator::key_of(const Body& body, const Scope& scope) {
   for (const SymbolId symbol : entry->second)
     if (const Binding* binding = scope.find(symbol)) {
       fmt::format_to(std::back_inserter(key), ";{}=", symbol.index);
-      append_key(key, binding->value);
+      context_.names->keys.append(key, binding->value);
       // Equal when the shutter opens is not equal all the while.
       if (binding->timed)
         fmt::format_to(std::back_inserter(key), "({}@{})", binding->timed->expr.index,
                        fmt::ptr(binding->timed->scope.get()));
     }
-  return key;
+  return context_.names->keys.shortened(std::move(key));
 }
 
 bool Evaluator::define(const SyntaxTree& tree, const Item& item, const std::shared_ptr<Scope>& scope) {
@@ -300,6 +297,13 @@ bool Evaluator::define(const SyntaxTree& tree, const Item& item, const std::shar
   } else if (const auto* function = std::get_if<FunctionItem>(&item.node)) {
     check_parameters(tree, function->parameters, nullptr);
     check_definition(*this, tree, item, scope);
+    if (function->value.valid() && function->steps.valid()) {
+      const Span& steps = tree[function->steps].span;
+      const std::string_view name = text(function->name.symbol);
+      error({steps.source, steps.begin, steps.begin + 1},
+            fmt::format("'=' is missing before the steps of '{}', which returns a value", name),
+            fmt::format("write def {}(…) = {{ … }}; without '=' it is a template that places things", name));
+    }
     add(function->name, Value::of_heavy(Type::function, Function{&tree, &item, scope}),
         BindingKind::constant);
   } else if (const auto* form = std::get_if<TemplateItem>(&item.node)) {

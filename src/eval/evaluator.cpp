@@ -127,7 +127,8 @@ struct Dispatch {
 
   Value operator()(const StringExpr& e) const {
     const StringValue& literal = tree.strings[e.literal];
-    std::string text = literal.pieces[0];
+    std::string text;
+    if (!append_piece(text, literal.pieces[0])) return {};
     bool failed = false;
     for (std::size_t i = 0; i < literal.values.size(); ++i) {
       const Value part = value(literal.values[i]);
@@ -139,10 +140,23 @@ struct Dispatch {
                  printable ? "a string must be known when the scene is read"
                            : fmt::format("{} cannot be written into a string", describe(part.type)));
         failed = true;
-      } else
-        text += text_of(part) + literal.pieces[i + 1];
+      } else if (!append_text(text, part, max_string_bytes)) {
+        return too_long_a_string();
+      }
+      if (!append_piece(text, literal.pieces[i + 1])) return {};
     }
     return failed ? Value{} : Value::string(std::move(text));
+  }
+
+  Value too_long_a_string() const {
+    return ev.error(span, fmt::format("a string of more than {} bytes", max_string_bytes),
+                    "strings are names of files and parts of them");
+  }
+  // False after an error.
+  bool append_piece(std::string& text, const std::string& piece) const {
+    if (text.size() + piece.size() > max_string_bytes) return !too_long_a_string().is_error();
+    text += piece;
+    return true;
   }
 
   Value operator()(const NameExpr& e) const { return ev.value_of_name(e.symbol, span, *scope); }
@@ -296,7 +310,12 @@ struct Dispatch {
       elements.push_back(value(id));
       failed |= elements.back().is_error();
     }
-    return failed ? Value{} : Value::of_heavy(Type::list, std::move(elements));
+    if (failed) return {};
+    Value list = Value::list(std::move(elements));
+    if (list.list_depth > max_list_depth)
+      return ev.error(span, fmt::format("lists nested more than {} deep", max_list_depth),
+                      "join lists side by side, not one within another");
+    return list;
   }
 
   Value operator()(const RangeExpr& e) const {

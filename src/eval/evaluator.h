@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -26,6 +27,8 @@ inline constexpr int max_total_iterations = 1'000'000;  // all of them below one
 inline constexpr int max_unrolled_iterations = 4'096;   // one `for` in a body
 inline constexpr int max_total_unrolled = 65'536;       // all of them in one body
 inline constexpr int max_octaves = 32;
+inline constexpr std::size_t max_string_bytes = 65'536;
+inline constexpr int max_list_depth = 256;  // lists within each other
 
 // What could not be read, and has been told: names that may have been defined there are not complained of.
 struct Unread {
@@ -54,13 +57,17 @@ struct Context {
   std::uint64_t time_reads = 0;  // how often scene code asked for `time`, or for what depends on it
   SourceId main_source{0};       // the file whose unused names are warned of
   Unread unread{};
-  std::vector<const syntax::SyntaxTree*> trees{};  // that were read so far
-  ImageReader* images = nullptr;                   // none: there are no pictures
+  std::vector<const syntax::SyntaxTree*> trees{};       // that were read so far
+  std::unordered_set<syntax::SymbolId> told_unknown{};  // names that are nothing: told once for all uses
+  ImageReader* images = nullptr;                        // none: there are no pictures
   std::shared_ptr<Names> names{};  // made when first needed; must outlive the values of the run
 
   // For a name that was used in vain at `use`: a definition of it that comes later, or within a block.
   std::optional<DefinedElsewhere> defined_elsewhere(syntax::SymbolId symbol, const Span& use) const;
 };
+
+// The way out where a colour is wanted and this is found.
+std::string help_for_color(const Value& found);
 
 // How many values a range holds (0 when empty, or when its step is 0 or not finite), and the i-th.
 std::int64_t count(const RangeValue& range);

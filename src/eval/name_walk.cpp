@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
+
+#include "eval/symbol_stack.h"
 
 namespace tyndall::eval {
 
@@ -25,11 +28,9 @@ class NameWalk {
   NameWalk(const SyntaxTree& tree, const Names* choices, Visitor visitor)
       : tree_(tree), choices_(choices), visitor_(std::move(visitor)) {}
 
-  std::vector<SymbolId> locals;
+  SymbolStack locals;
 
-  bool is_local(SymbolId symbol) const {
-    return std::find(locals.begin(), locals.end(), symbol) != locals.end();
-  }
+  bool is_local(SymbolId symbol) const { return locals.contains(symbol); }
 
   // The last child is walked by looping: long sums and `else if` chains are deep there.
   void expr(ExprId id) {
@@ -44,13 +45,13 @@ class NameWalk {
     const std::size_t outside = locals.size();
     for (const ItemId item : tree_.list_of_items(tree_[id].items))
       std::visit([&](const auto& node) { this->item(node); }, tree_[item].node);
-    locals.resize(outside);
+    locals.shrink(outside);
   }
 
   void parameters(ListRef list) {
     for (const Parameter& parameter : tree_.list_of_parameters(list)) {
       expr(parameter.default_value);
-      locals.push_back(parameter.name.symbol);
+      locals.push(parameter.name.symbol);
     }
   }
 
@@ -112,22 +113,22 @@ class NameWalk {
   void item(const AssignItem& i) { expr(i.value); }
   void item(const FunctionItem& i) {
     function(i.parameters, i.value, i.steps);
-    locals.push_back(i.name.symbol);
+    locals.push(i.name.symbol);
   }
   void item(const TemplateItem& i) {
-    locals.push_back(i.name.symbol);  // a template may place itself
+    locals.push(i.name.symbol);  // a template may place itself
     function(i.parameters, ExprId{}, i.body);
   }
   void item(const BodyItem& i) {
     const std::size_t outside = locals.size();
     parameters(i.parameters);
     within(i.kind == BodyKind::medium ? Around::medium : Around::material, i.body);
-    locals.resize(outside);
-    locals.push_back(i.name.symbol);
+    locals.shrink(outside);
+    locals.push(i.name.symbol);
   }
   void item(const ObjectItem& i) {
     block(i.body);
-    locals.push_back(i.name.symbol);
+    locals.push(i.name.symbol);
   }
   void item(const PlaceItem& i) {
     if (!is_local(i.name.symbol)) visitor_.name(i.name.symbol, i.name.span, locals, around_);
@@ -136,9 +137,9 @@ class NameWalk {
   void item(const IncludeItem& i) { expr(i.file); }
   void item(const ForItem& i) {
     expr(i.range);
-    locals.push_back(i.name.symbol);
+    locals.push(i.name.symbol);
     block(i.body);
-    locals.pop_back();
+    locals.shrink(locals.size() - 1);
   }
   void item(const IfItem& i) {
     expr(i.condition);
@@ -169,14 +170,14 @@ class NameWalk {
   }
   void defined(const Name& name, ExprId value) {
     expr(value);
-    locals.push_back(name.symbol);
+    locals.push(name.symbol);
   }
   void function(ListRef list_of_parameters, ExprId value, BlockId steps) {
     const std::size_t outside = locals.size();
     parameters(list_of_parameters);
     expr(value);
     if (steps.valid()) block(steps);
-    locals.resize(outside);
+    locals.shrink(outside);
   }
 
   const SyntaxTree& tree_;
@@ -191,12 +192,12 @@ class NameWalk {
 namespace {
 
 struct FoundNames {
-  std::vector<SymbolId>& found;
+  SymbolStack& found;
 
-  void name(SymbolId symbol, Span, const std::vector<SymbolId>&, Around) const {
-    if (std::find(found.begin(), found.end(), symbol) == found.end()) found.push_back(symbol);
+  void name(SymbolId symbol, Span, const SymbolStack&, Around) const {
+    if (!found.contains(symbol)) found.push(symbol);
   }
-  void call(const SyntaxTree&, const CallExpr&, const std::vector<SymbolId>&) const {}
+  void call(const SyntaxTree&, const CallExpr&, const SymbolStack&) const {}
 };
 
 }  // namespace
@@ -206,10 +207,10 @@ bool is_choice(const Names& names, const SyntaxTree& tree, const Argument& argum
 }
 
 std::vector<SymbolId> free_names(const SyntaxTree& tree, BlockId block) {
-  std::vector<SymbolId> found;
+  SymbolStack found;
   NameWalk walk(tree, nullptr, FoundNames{found});
   walk.block(block);
-  return found;
+  return found.all();
 }
 
 // Which inputs are known where names are checked: as the evaluator sees them, none (a def), or a body's.
@@ -221,7 +222,7 @@ class NameCheck {
   bool in_function = false;
   SymbolId self{};
 
-  void name(SymbolId symbol, Span span, const std::vector<SymbolId>& locals, Around around) const {
+  void name(SymbolId symbol, Span span, const SymbolStack& locals, Around around) const {
     const Special special = ev_.names().special(symbol);
     if (special == Special::time || special == Special::frame || special == Special::pi) return;
     if (symbol == self) {
@@ -239,39 +240,49 @@ class NameCheck {
     else if (special != Special::none && inputs_of)
       ev_.error(span, fmt::format("a medium has no '{}'", ev_.text(symbol)), "its inputs are p, P and time");
     else
-      ev_.unknown_name(symbol, span, scope_.get(), locals, inputs(around));
+      ev_.unknown_name(symbol, span, scope_.get(), locals.all(), inputs(around));
   }
 
   // Arguments are given to parameters that there are.
-  void call(const SyntaxTree& tree, const CallExpr& call, const std::vector<SymbolId>& locals) const {
+  void call(const SyntaxTree& tree, const CallExpr& call, const SymbolStack& locals) const {
     const auto* callee = std::get_if<NameExpr>(&tree[call.callee].node);
-    if (!callee || std::find(locals.begin(), locals.end(), callee->symbol) != locals.end()) return;
+    if (!callee || locals.contains(callee->symbol)) return;
+    const Binding* binding = scope_->find(callee->symbol);
+    const BuiltinEntry* builtin = binding ? nullptr : ev_.names().builtin(callee->symbol);
+    const auto arguments = tree.list_of_arguments(call.arguments);
+    const auto is_named = [](const Argument& argument) { return argument.name.symbol.valid(); };
+    if (std::any_of(arguments.begin(), arguments.end(), is_named))
+      named_arguments(arguments, ev_.text(callee->symbol), binding, builtin);
+    if (builtin && !builtin->free) options_have_names(tree, call, *builtin->row);
+  }
+
+ private:
+  void named_arguments(std::span<const Argument> arguments, std::string_view callee, const Binding* binding,
+                       const BuiltinEntry* builtin) const {
     std::vector<std::string_view> names;
     Span definition;
-    const BuiltinEntry* builtin = nullptr;
-    if (const Binding* binding = scope_->find(callee->symbol)) {
+    if (binding) {
       const std::optional<Declared> declared = parameters_of(binding->value);
       if (!declared) return;
       const auto parameters = declared->tree->list_of_parameters(declared->parameters);
       names = parameter_names(ev_, parameters);
       if (!parameters.empty()) definition = parameters[0].name.span;
-    } else if ((builtin = ev_.names().builtin(callee->symbol)) != nullptr) {
+    } else if (builtin) {
       for (const vm::BuiltinParameter& parameter : builtin->row->parameters) names.push_back(parameter.name);
     } else {
       return;
     }
-    for (const Argument& argument : tree.list_of_arguments(call.arguments))
-      if (argument.name.symbol.valid() &&
-          std::find(names.begin(), names.end(), ev_.text(argument.name.symbol)) == names.end())
-        report_unknown_parameter(ev_, ev_.text(callee->symbol), argument.name, names, definition);
-    if (builtin && !builtin->free) options_have_names(tree, call, *builtin->row);
+    const std::unordered_set<std::string_view> known(names.begin(), names.end());
+    for (const Argument& argument : arguments)
+      if (argument.name.symbol.valid() && !known.contains(ev_.text(argument.name.symbol)))
+        report_unknown_parameter(ev_, callee, argument.name, names, definition);
   }
 
- private:
   void options_have_names(const SyntaxTree& tree, const CallExpr& call, const vm::Builtin& row) const {
     std::size_t position = 0;
     for (const Argument& argument : tree.list_of_arguments(call.arguments)) {
-      if (argument.name.symbol.valid()) return;
+      const bool is_text = std::holds_alternative<StringExpr>(tree[argument.value].node);
+      if (argument.name.symbol.valid() || is_text) return;  // a text is no place: that is told first
       if (position >= row.parameters.size()) return;
       if (row.parameters[position++].named) return report_option_without_name(ev_, row, tree, argument.value);
     }
@@ -333,7 +344,7 @@ void Evaluator::check_names(const SyntaxTree& tree, ExprId id, const std::shared
 void Evaluator::check_names(const SyntaxTree& tree, BlockId id, const std::shared_ptr<const Scope>& scope,
                             ListRef parameters, SymbolId local) {
   NameWalk walk(tree, &names(), NameCheck(*this, scope));
-  if (local.valid()) walk.locals.push_back(local);
+  if (local.valid()) walk.locals.push(local);
   walk.parameters(parameters);
   walk.block(id);
 }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "eval/keys.h"
 #include "eval/scope.h"
 #include "syntax/tree.h"
 #include "vm/builtins.h"
@@ -64,6 +65,8 @@ struct Names {
     }
   };
   std::unordered_map<Span, std::vector<syntax::SymbolId>, SpanHash> free_names;
+
+  Keys keys;
 };
 
 // Rows of this layer beside vm::builtins(): phase functions.

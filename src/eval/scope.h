@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "base/source.h"
@@ -36,12 +37,21 @@ struct Binding {
 // a value that comes into a scope in another way goes through Evaluator::hold.
 struct Scope : std::enable_shared_from_this<Scope> {
   std::shared_ptr<const Scope> parent;
-  std::vector<Binding> bindings;  // small: searched from the back
+  std::vector<Binding> bindings;  // only ever added to, at the end
   // The scope of a function's parameters: assignments inside do not reach the variables outside.
   bool assignments_end_here = false;
+  mutable std::uint64_t variable_reads = 0;  // how often `find` came upon a variable here
 
   const Binding* find(syntax::SymbolId symbol) const;       // through the parents; marks it used
   const Binding* find_here(syntax::SymbolId symbol) const;  // this scope only; does not mark
+
+ private:
+  // The last binding of each name among the first `count`.
+  struct Index {
+    std::unordered_map<syntax::SymbolId, std::uint32_t> places;
+    std::size_t count = 0;
+  };
+  mutable std::unique_ptr<Index> index_;  // of scopes with many bindings, made when first needed
 };
 
 }  // namespace tyndall::eval

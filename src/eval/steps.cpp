@@ -4,30 +4,17 @@
 
 #include <algorithm>
 
+#include "eval/branch_changes.h"
 #include "eval/evaluator.h"
 #include "eval/operators.h"
+#include "eval/symbol_stack.h"
+#include "syntax/foreign_words.h"
 
 namespace tyndall::eval {
 
 using namespace syntax;
 
 namespace {
-
-// What a branch changed: variables of the scopes outside of it, and outputs.
-struct Changes {
-  struct Variable {
-    const Binding* binding;
-    Value before, after;
-  };
-  struct Output {
-    const Item* item;
-    const AssignItem* assign;
-    Value value;
-  };
-  const Scope* outside = nullptr;
-  std::vector<Variable> variables;
-  std::vector<Output> outputs;
-};
 
 // A value returned where `condition` holds, while the function goes on elsewhere.
 struct PartialReturn {
@@ -158,12 +145,7 @@ class Steps {
                 "a variable keeps its kind", {{binding.definition, "it is defined here"}});
       return;
     }
-    if (found.outside_of_branch) {
-      auto& changed = branches_.back()->variables;
-      const bool known =
-          std::any_of(changed.begin(), changed.end(), [&](const auto& c) { return c.binding == &binding; });
-      if (!known) changed.push_back({&binding, binding.value, {}});
-    }
+    if (found.outside_of_branch) branches_.back()->note(binding);
     ev_.hold(*found.scope, value);
     binding.value = value;
   }
@@ -255,16 +237,15 @@ class Steps {
     const AssignItem* assign;
     std::string_view meant;
   };
-  void outputs_of(BlockId block, const Scope* scope, std::vector<SymbolId>& own,
-                  std::vector<SetOutput>& found) const {
+  void outputs_of(BlockId block, const Scope* scope, SymbolStack& own, std::vector<SetOutput>& found) const {
     for (const ItemId id : tree_.list_of_items(tree_[block].items)) {
       const Item& item = tree_[id];
-      if (const auto* var = std::get_if<VarItem>(&item.node)) own.push_back(var->name.symbol);
+      if (const auto* var = std::get_if<VarItem>(&item.node)) own.push(var->name.symbol);
       if (const auto* loop = std::get_if<ForItem>(&item.node)) outputs_of(loop->body, scope, own, found);
       if (const auto* choice = std::get_if<IfItem>(&item.node))
         outputs_of(choice->then_block, scope, own, found);
       const auto* assign = std::get_if<AssignItem>(&item.node);
-      if (!assign || std::find(own.begin(), own.end(), assign->name.symbol) != own.end()) continue;
+      if (!assign || own.contains(assign->name.symbol)) continue;
       const Found variable = find(assign->name.symbol, scope);
       if (variable.binding && variable.binding->kind == BindingKind::variable) continue;
       const std::string_view name = ev_.text(assign->name.symbol);
@@ -276,9 +257,9 @@ class Steps {
   // Reports outputs that only one of the branches sets.
   void compare_outputs(const IfItem& item, const Scope* scope) {
     std::vector<SetOutput> in_then, in_else;
-    std::vector<SymbolId> own;
+    SymbolStack own;
     outputs_of(item.then_block, scope, own, in_then);
-    own.clear();
+    own.shrink(0);
     if (item.else_block.valid()) outputs_of(item.else_block, scope, own, in_else);
     const auto lacks = [](const std::vector<SetOutput>& list, std::string_view name) {
       return std::none_of(list.begin(), list.end(), [&](const SetOutput& set) { return set.meant == name; });
@@ -345,18 +326,12 @@ class Steps {
   // Sets what the branches changed; a branch that returned leaves the other's values.
   void merge(const Scalar& condition, const Changes& a, const Changes& b, bool a_returned, bool b_returned,
              const Scope& scope, Span span) {
-    const auto after = [](const Changes& changes, const Binding* binding) {
-      for (const Changes::Variable& v : changes.variables)
-        if (v.binding == binding) return v.after;
-      return binding->value;
-    };
     std::vector<const Binding*> changed;
-    for (const Changes* changes : {&a, &b})
-      for (const Changes::Variable& v : changes->variables)
-        if (std::find(changed.begin(), changed.end(), v.binding) == changed.end())
-          changed.push_back(v.binding);
+    for (const Changes::Variable& v : a.variables) changed.push_back(v.binding);
+    for (const Changes::Variable& v : b.variables)
+      if (!a.changed(*v.binding)) changed.push_back(v.binding);
     for (const Binding* binding : changed) {
-      const Value from_a = after(a, binding), from_b = after(b, binding);
+      const Value from_a = a.after(*binding), from_b = b.after(*binding);
       const Value merged = a_returned   ? from_b
                            : b_returned ? from_a
                                         : select(ev_, condition, from_a, from_b, span);
@@ -383,7 +358,8 @@ void Evaluator::report_no_output(const Outputs& outputs, const Name& name,
   const std::string_view word = text(name.symbol);
   std::vector<std::string_view> candidates = outputs.names;
   candidates.insert(candidates.end(), variables.begin(), variables.end());
-  const std::string guess = did_you_mean(word, candidates);
+  std::string guess(help_for_foreign_word(ForeignUse::output, word));
+  if (guess.empty()) guess = did_you_mean(word, candidates);
   error(name.span, fmt::format("'{}' has no output '{}'", outputs.owner, word),
         guess.empty()
             ? fmt::format("outputs are {}; let {} = … defines a name", fmt::join(outputs.names, ", "), word)

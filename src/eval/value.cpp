@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <bit>
+#include <algorithm>
 #include <numbers>
 
 #include "base/check.h"
-#include "eval/scope.h"
 
 namespace tyndall::eval {
 
@@ -84,13 +83,16 @@ int Value::width() const {
 bool Value::known() const {
   for (const Scalar& scalar : scalars)
     if (!scalar.known()) return false;
-  if (const auto* list = get<std::vector<Value>>())
-    for (const Value& element : *list)
-      if (!element.known()) return false;
+  if (!parts_known) return false;
   if (const auto* lobes = get<std::vector<PhaseLobe>>())
     for (const PhaseLobe& lobe : *lobes)
       if (!lobe.weight.known() || !lobe.parameters[0].known() || !lobe.parameters[1].known()) return false;
   return true;
+}
+
+bool Value::holds_scope() const {
+  return parts_hold_scopes || get<Function>() || get<Body>() || get<ShapeLiteral>() ||
+         get<ObjectDefinition>();
 }
 
 Value Value::number(double v, syntax::Unit unit) {
@@ -115,6 +117,20 @@ Value Value::angle(double radians) {
 Value Value::pair(double x, double y) { return of(Type::pair, {Scalar{x}, Scalar{y}}); }
 Value Value::vec(const Vec3d& v) { return of(Type::vec, {Scalar{v.x}, Scalar{v.y}, Scalar{v.z}}); }
 Value Value::string(std::string v) { return of_heavy(Type::string, std::move(v)); }
+Value Value::list(std::vector<Value> elements) {
+  bool known = true, hold_scopes = false;
+  std::uint16_t depth = 0;
+  for (const Value& element : elements) {
+    known = known && element.known();
+    hold_scopes = hold_scopes || element.holds_scope();
+    depth = std::max(depth, element.list_depth);
+  }
+  Value value = of_heavy(Type::list, std::move(elements));
+  value.parts_known = known;
+  value.parts_hold_scopes = hold_scopes;
+  value.list_depth = static_cast<std::uint16_t>(depth + 1);
+  return value;
+}
 Value Value::transform(const Transform& t) { return of_heavy(Type::transform, t); }
 Value Value::of(Type type, const std::array<Scalar, 3>& scalars) {
   Value value;
@@ -176,12 +192,9 @@ std::string text_of(const Value& value) {
     case Type::string:
       return value.as_string();
     case Type::list: {
-      std::string text = "[";
-      for (const Value& element : value.as_list()) {
-        if (text.size() > 1) text += ", ";
-        text += text_of(element);
-      }
-      return text + "]";
+      std::string text;
+      append_text(text, value, std::string::npos);
+      return text;
     }
     case Type::error:
     case Type::transform:
@@ -199,53 +212,21 @@ std::string text_of(const Value& value) {
   return {};
 }
 
-static void append_number(std::string& key, double number) {
-  fmt::format_to(std::back_inserter(key), "{:x},", std::bit_cast<std::uint64_t>(number + 0.0));
-}
-
-static void append_vec(std::string& key, const Vec3d& v) {
-  for (std::size_t i = 0; i < 3; ++i) append_number(key, v[i]);
-}
-
-// A definition and the scope it stands in. Definitions keep their scopes for the whole run (Evaluator::bind),
-// so equal addresses are the same scope.
-static void append_definition(std::string& key, const Span& span, const Scope* scope) {
-  fmt::format_to(std::back_inserter(key), "{}:{}@{},", span.source.index, span.begin,
-                 fmt::ptr(static_cast<const void*>(scope)));
-}
-
-void append_key(std::string& key, const Value& value) {
-  fmt::format_to(std::back_inserter(key), "{}~", static_cast<int>(value.type));
-  for (int i = 0; i < value.width(); ++i)
-    append_number(key, value.scalars[static_cast<std::size_t>(i)].value);
-  if (!value.heavy) return;
-  if (const auto* text = value.get<std::string>()) {
-    fmt::format_to(std::back_inserter(key), "{}:{},", text->size(), *text);
-  } else if (const auto* t = value.get<Transform>()) {
-    for (const Vec3d& column : {t->x, t->y, t->z, t->t}) append_vec(key, column);
-  } else if (const auto* list = value.get<std::vector<Value>>()) {
-    fmt::format_to(std::back_inserter(key), "{}[", list->size());
-    for (const Value& element : *list) append_key(key, element);
-  } else if (const auto* range = value.get<RangeValue>()) {
-    append_vec(key, {range->first, range->last, range->step});
-    key += range->excludes_last ? '<' : '.';
-  } else if (const auto* function = value.get<Function>()) {
-    append_definition(key, function->item->span, function->scope.get());
-  } else if (const auto* body = value.get<Body>()) {
-    key += body->key;
-  } else if (const auto* lobes = value.get<std::vector<PhaseLobe>>()) {
-    for (const PhaseLobe& lobe : *lobes) {
-      key += static_cast<char>('a' + static_cast<int>(lobe.kind));
-      append_vec(key, {lobe.parameters[0].value, lobe.parameters[1].value, lobe.weight.value});
-    }
-  } else if (const auto* shape = value.get<ShapeLiteral>()) {
-    append_definition(key, shape->span, shape->scope.get());
-  } else if (const auto* object = value.get<ObjectDefinition>()) {
-    append_definition(key, object->item->name.span, object->scope.get());
-  } else if (const auto* image = value.get<Image>()) {
-    fmt::format_to(std::back_inserter(key), "{}:{}:{},", image->path.size(), image->path, image->channel);
-    append_vec(key, image->factor);
+bool append_text(std::string& text, const Value& value, std::size_t most) {
+  if (value.type != Type::list) {
+    if (value.type == Type::string && value.as_string().size() > most) return false;
+    text += text_of(value);
+    return text.size() <= most;
   }
+  text += '[';
+  bool first = true;
+  for (const Value& element : value.as_list()) {
+    if (!first) text += ", ";
+    first = false;
+    if (!append_text(text, element, most)) return false;
+  }
+  text += ']';
+  return text.size() <= most;
 }
 
 }  // namespace tyndall::eval

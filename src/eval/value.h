@@ -82,6 +82,7 @@ struct PhaseLobe {
   enum class Kind : std::uint8_t { isotropic, rayleigh, hg, draine, droplets } kind{};
   std::array<Scalar, 2> parameters{};  // hg: g; draine: g, a; droplets: diameter [m]
   Scalar weight{1};
+  std::vector<Scalar> shares{};  // of mixtures that it is in, as given: those that are not known
 };
 
 struct ShapeLiteral {  // evaluated by resolve
@@ -112,12 +113,17 @@ using Heavy = std::variant<std::monostate, std::string, Transform, std::vector<V
 struct Value {
   Type type = Type::error;
   syntax::Unit unit =
-      syntax::Unit::none;           // of a number written with a unit; see language.md "Space, time, units"
+      syntax::Unit::none;  // of a number written with a unit; see language.md "Space, time, units"
+  // Of lists, noted as they are made: a list may hold another one many times over.
+  bool parts_known = true, parts_hold_scopes = false;
+  std::uint16_t list_depth = 0;     // lists within each other, itself included
   std::array<Scalar, 3> scalars{};  // number, boolean (0/1), angle (radians): [0]; pair: [0,1]; vec: all
   std::shared_ptr<const Heavy> heavy;
 
   int width() const;   // 1, 2 or 3 for scalar types, 0 otherwise
   bool known() const;  // every scalar known (and every part of a list)
+  // Whether it may hold the scope it is bound in: definitions, bodies, shapes, and lists of them.
+  bool holds_scope() const;
   bool is_error() const { return type == Type::error; }
 
   static Value number(double v, syntax::Unit unit = syntax::Unit::none);
@@ -126,6 +132,7 @@ struct Value {
   static Value pair(double x, double y);
   static Value vec(const Vec3d& v);
   static Value string(std::string v);
+  static Value list(std::vector<Value> elements);
   static Value transform(const Transform& t);
   // A value of up to three scalars, known or not.
   static Value of(Type type, const std::array<Scalar, 3>& scalars);
@@ -153,7 +160,7 @@ struct Value {
 // The value as "{…}" in a string writes it: numbers at their shortest, integers without a point.
 std::string text_of(const Value& value);
 
-// Appends a text that is equal for equal values (and only for those): the part of Body::key for an argument.
-void append_key(std::string& key, const Value& value);
+// Appends that text. False, with a part of it, when `text` would grow beyond `most` bytes.
+bool append_text(std::string& text, const Value& value, std::size_t most);
 
 }  // namespace tyndall::eval

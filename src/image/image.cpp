@@ -67,14 +67,48 @@ void make_linear(Image& image) {
     if (image.channels[i % image.channels.size()] != "A") image.pixels[i] = linear_from_srgb(image.pixels[i]);
 }
 
+// Whether two channels are called alike, whatever the case.
+bool same_name(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+// What read_planes reads; `wish` is its channel.
+std::vector<std::size_t> chosen_channels(const std::vector<std::string>& channels, const void* wish) {
+  const auto find = [&](std::string_view name) {
+    std::size_t i = 0;
+    while (i < channels.size() && !same_name(channels[i], name)) ++i;
+    return i;
+  };
+  const std::size_t none = channels.size();
+  const auto& name = *static_cast<const std::string*>(wish);
+  if (!name.empty()) return find(name) == none ? std::vector<std::size_t>{} : std::vector{find(name)};
+  const std::size_t r = find("R"), g = find("G"), b = find("B");
+  if (r != none && g != none && b != none) return {r, g, b};
+  if (channels.size() < 3) return {0};
+  return {0, 1, 2};
+}
+
+std::uint8_t display_byte(float exposed) {
+  if (std::isnan(exposed)) return 0;
+  return static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(std::clamp(exposed, 0.0f, 1.0f))));
+}
+
+// Of the whole picture that the image is (a part of).
 std::vector<std::uint8_t> display_bytes(const Image& image, double exposure) {
   const auto scale = static_cast<float>(std::exp2(exposure));
-  std::vector<std::uint8_t> bytes(image.pixels.size());
-  std::transform(image.pixels.begin(), image.pixels.end(), bytes.begin(), [scale](float value) {
-    const float exposed = value * scale;
-    if (std::isnan(exposed)) return std::uint8_t{0};
-    return static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(std::clamp(exposed, 0.0f, 1.0f))));
-  });
+  const Image::Place place = whole_of(image);
+  const std::size_t channels = image.channels.size(),
+                    row = static_cast<std::size_t>(place.whole_width) * channels,
+                    part = static_cast<std::size_t>(image.width) * channels;
+  std::vector<std::uint8_t> bytes(row * static_cast<std::size_t>(place.whole_height));
+  for (int y = 0; y < image.height; ++y) {
+    const auto from = image.pixels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * part);
+    const auto to = bytes.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y + place.y) * row +
+                                                                static_cast<std::size_t>(place.x) * channels);
+    std::transform(from, from + static_cast<std::ptrdiff_t>(part), to,
+                   [scale](float value) { return display_byte(value * scale); });
+  }
   return bytes;
 }
 
@@ -97,7 +131,7 @@ std::string write(const std::string& path, const Image& image, const Metadata& m
 
 std::string check_writable(const std::string& path) {
   if (!format_of(path)) return unknown_format(path);
-  return check_file_creatable(path);
+  return check_file_writable(path);
 }
 
 ReadResult read(const std::string& path) {
@@ -117,7 +151,7 @@ ReadResult read(const std::string& path) {
   return result;
 }
 
-ReadResult read_any(const std::string& path, std::size_t most_pixels) {
+PlanesResult read_planes(const std::string& path, const std::string& channel, std::uint64_t most_bytes) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     return {.error = fmt::format("cannot read '{}': it is a directory", path)};
@@ -125,10 +159,14 @@ ReadResult read_any(const std::string& path, std::size_t most_pixels) {
     return {.error = fmt::format("cannot read '{}': no such file", path)};
   const LoadedCodec& loaded = load_codec();
   bool encoded = false;
-  ReadResult result = loaded.codec != nullptr ? loaded.codec->decode_any(path, most_pixels, encoded)
-                                              : ReadResult{.error = loaded.problem};
-  if (!result.image) return {.error = fmt::format("cannot read '{}': {}", path, result.error)};
-  if (encoded) make_linear(*result.image);
+  PlanesResult result = loaded.codec != nullptr ? loaded.codec->decode_planes(path, chosen_channels, &channel,
+                                                                              most_bytes, encoded)
+                                                : PlanesResult{.error = loaded.problem};
+  if (!result.error.empty()) return {.error = fmt::format("cannot read '{}': {}", path, result.error)};
+  if (encoded)
+    for (ReadPlane& plane : result.planes)
+      if (!same_name(result.channels[plane.channel], "A"))
+        for (float& texel : plane.texels) texel = linear_from_srgb(texel);
   return result;
 }
 

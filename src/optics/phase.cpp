@@ -12,9 +12,12 @@ namespace {
 
 constexpr float inv_4pi_f = static_cast<float>(inv_4pi);
 
+constexpr double greatest_g = 0.9999;
+constexpr double least_droplet = 5e-6, greatest_droplet = 50e-6;  // [m], of the fit
+
 template <class T>
 T clamp_g(T g) {
-  return std::clamp(g, T(-0.9999), T(0.9999));
+  return std::clamp(g, T(-greatest_g), T(greatest_g));
 }
 
 // |1 - g e^(i theta)|² = (1 - g)² + 2 g m. For g < 0 the peak is at m = 2, and 2 - m is exact there.
@@ -82,7 +85,7 @@ struct Droplets {
   float g_hg, g_draine, a, weight_draine;
 
   explicit Droplets(float diameter_metres) {
-    const double d = std::clamp(static_cast<double>(diameter_metres) * 1e6, 5.0, 50.0);
+    const double d = std::clamp(static_cast<double>(diameter_metres), least_droplet, greatest_droplet) * 1e6;
     g_hg = static_cast<float>(std::exp(-0.0990567 / (d - 1.67154)));
     g_draine = static_cast<float>(std::exp(-2.20679 / (d + 3.91029) - 0.428934));
     a = static_cast<float>(std::exp(3.62489 - 8.29288 / (d + 5.52825)));
@@ -104,6 +107,24 @@ std::string_view keyword(PhaseKind kind) {
       return "draine";
     case PhaseKind::droplets:
       return "droplets";
+  }
+  return {};
+}
+
+std::span<const PhaseParameter> parameters(PhaseKind kind) {
+  static constexpr PhaseParameter of_hg[] = {{"g", -greatest_g, greatest_g}};
+  static constexpr PhaseParameter of_draine[] = {{"g", -greatest_g, greatest_g}, {"a", 0, 1e6}};
+  static constexpr PhaseParameter of_droplets[] = {{"diameter", least_droplet, greatest_droplet}};
+  switch (kind) {
+    case PhaseKind::isotropic:
+    case PhaseKind::rayleigh:
+      return {};
+    case PhaseKind::hg:
+      return of_hg;
+    case PhaseKind::draine:
+      return of_draine;
+    case PhaseKind::droplets:
+      return of_droplets;
   }
   return {};
 }

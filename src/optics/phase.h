@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "base/vec.h"
@@ -15,8 +16,17 @@ namespace tyndall::optics {
 enum class PhaseKind : std::uint8_t { isotropic, rayleigh, hg, draine, droplets };
 std::string_view keyword(PhaseKind kind);
 
-// Henyey and Greenstein 1941. g in (-1, 1), clamped to ±0.9999. Written in m = 1 - cos_theta, which keeps
-// full precision for forward peaks (transport §7).
+// A parameter and its range, both ends included.
+struct PhaseParameter {
+  std::string_view name;
+  double lowest, highest;
+};
+// In the order of Phase::parameters.
+std::span<const PhaseParameter> parameters(PhaseKind kind);
+
+// Henyey and Greenstein 1941. g in [-0.9999, 0.9999], and clamped to it: nearer to 1 the peak is narrower
+// than directions in floats are fine. Written in m = 1 - cos_theta, which keeps full precision for forward
+// peaks (transport §7).
 float hg_eval(float g, float one_minus_cos);
 // Draws m = 1 - cos_theta in [0, 2] for u in [0, 1).
 float hg_sample(float g, float u);

@@ -10,8 +10,8 @@ namespace tyndall::optics {
 
 namespace {
 
-// Tables have at most so many columns.
-constexpr int most_columns = 2048;
+// Tables have at most so many columns and rows.
+constexpr int most_cells = 2048;
 
 // u and v, both in [0, 1], of a direction in the sky's own space.
 Pair<double> place_of(const Vec3d& sky) {
@@ -45,6 +45,54 @@ Transform world_from_picture(const EnvironmentLight& light) {
 // The inverse of a map that keeps lengths.
 Vec3d turned_back(const Transform& t, const Vec3d& v) { return {dot(t.x, v), dot(t.y, v), dot(t.z, v)}; }
 
+// The mean radiance of the picture over its texels: that of the bilinear function, which weighs a texel and
+// its neighbours 6/8, 1/8 and 1/8 each way. Kept for a few rows at a time.
+class RowMeans {
+ public:
+  RowMeans(const EnvironmentLight& light, int rows)
+      : radiance_(light.radiance), width_(radiance_.picture[0]->width), rows_(rows) {
+    sums_.resize(static_cast<std::size_t>(width_));
+    across_.resize(static_cast<std::size_t>(rows_ + 2) * static_cast<std::size_t>(width_));
+  }
+
+  // Goes to the rows from `first` on.
+  void go_to(int first) {
+    first_ = first;
+    const int last = radiance_.picture[0]->height - 1;
+    for (int i = 0; i < rows_ + 2; ++i) read_row(std::clamp(first - 1 + i, 0, last), i);
+  }
+
+  // Of one of them.
+  double at(int x, int y) const {
+    const int i = y - first_ + 1;
+    return 0.75 * across(x, i) + 0.125 * (across(x, i - 1) + across(x, i + 1));
+  }
+
+ private:
+  double across(int x, int i) const { return across_[index(x, i)]; }
+  std::size_t index(int x, int i) const {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  void read_row(int y, int i) {
+    for (int x = 0; x < width_; ++x) {
+      double sum = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        sum += double{radiance_.color[c]} * std::max(0.0f, radiance_.picture[c]->at(x, y));
+      sums_[static_cast<std::size_t>(x)] = sum / 3;
+    }
+    for (int x = 0; x < width_; ++x) {
+      const double left = sums_[static_cast<std::size_t>(x > 0 ? x - 1 : width_ - 1)],
+                   right = sums_[static_cast<std::size_t>(x + 1 < width_ ? x + 1 : 0)];
+      across_[index(x, i)] = 0.75 * sums_[static_cast<std::size_t>(x)] + 0.125 * (left + right);
+    }
+  }
+
+  const SkyRadiance& radiance_;
+  int width_, rows_, first_ = 0;
+  std::vector<double> sums_, across_;
+};
+
 }  // namespace
 
 Rgb sky_radiance(const EnvironmentLight& light, const Vec3d& direction) {
@@ -62,33 +110,24 @@ Sky::Sky(const EnvironmentLight& light) : world_from_sky_(world_from_picture(lig
   CHECK(picture[0] && picture[1] && picture[2]);
   width_ = picture[0]->width;
   height_ = picture[0]->height;
-  block_ = (width_ + most_columns - 1) / most_columns;
+  block_ = (std::max(width_, height_) + most_cells - 1) / most_cells;
   columns_ = (width_ + block_ - 1) / block_;
   rows_ = (height_ + block_ - 1) / block_;
-  const auto texel = [&](int x, int y) {
-    x = x < 0 ? width_ - 1 : x >= width_ ? 0 : x;
-    y = std::clamp(y, 0, height_ - 1);
-    double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c)
-      sum += double{light.radiance.color[c]} * std::max(0.0f, picture[c]->at(x, y));
-    return sum / 3;
-  };
-  // The mean of the bilinear function over a texel weighs it and its neighbours 6/8, 1/8 and 1/8 each way.
-  const auto across = [&](int x, int y) {
-    return 0.75 * texel(x, y) + 0.125 * (texel(x - 1, y) + texel(x + 1, y));
-  };
-  const auto mean = [&](int x, int y) {
-    return 0.75 * across(x, y) + 0.125 * (across(x, y - 1) + across(x, y + 1));
-  };
   sums_.assign(static_cast<std::size_t>(rows_) + 1, 0);
   sums_of_rows_.reserve(static_cast<std::size_t>(rows_) * (static_cast<std::size_t>(columns_) + 1));
+  RowMeans means(light, block_);
+  std::vector<double> heights(static_cast<std::size_t>(block_));  // of rows of texels, in sines of latitude
   for (int row = 0; row < rows_; ++row) {
     double sum = 0;
     sums_of_rows_.push_back(0);
+    const int first = row * block_, end = std::min(first + block_, height_);
+    means.go_to(first);
+    for (int y = first; y < end; ++y)
+      heights[static_cast<std::size_t>(y - first)] = sine_at(y + 1, height_) - sine_at(y, height_);
     for (int column = 0; column < columns_; ++column) {
-      for (int y = row * block_; y < std::min((row + 1) * block_, height_); ++y)
+      for (int y = first; y < end; ++y)
         for (int x = column * block_; x < std::min((column + 1) * block_, width_); ++x)
-          sum += mean(x, y) * 2 * pi / width_ * (sine_at(y + 1, height_) - sine_at(y, height_));
+          sum += means.at(x, y) * 2 * pi / width_ * heights[static_cast<std::size_t>(y - first)];
       sums_of_rows_.push_back(static_cast<float>(sum));
     }
     total_ += sums_of_rows_.back();

@@ -9,32 +9,42 @@ namespace tyndall::render {
 
 namespace {
 
-// Mean of the picture's values, of all channels: sets the scale below which errors do not count.
-double mean_value(const Film& film, const std::vector<Tile>& tiles) {
+// The planned error, of the wanted one: estimates waver, and what is told must hold.
+constexpr double aim = 0.85;
+
+// A block that shows no error of its own is taken to have this part of the picture's.
+constexpr double least_share = 1.0 / 16;
+
+Vec3d half_mean(const Film& film, int x, int y, int half) {
+  return (film.group_mean(x, y, 2 * half) + film.group_mean(x, y, 2 * half + 1)) * 0.5;
+}
+
+// The scale below which errors do not count, as a half of the picture has it: 0.01 of the squared mean of its
+// values, of all channels.
+double scale_of(const Film& film, const std::vector<Tile>& tiles, int half) {
   double sum = 0, pixels = 0;
   for (const Tile& tile : tiles) {
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
-        const Rgb c = film.mean(x, y);
-        sum += (double{c.x} + c.y + c.z) / 3;
+        const Vec3d c = half_mean(film, x, y, half);
+        sum += (c.x + c.y + c.z) / 3;
       }
     pixels += tile.pixels();
   }
-  return pixels > 0 ? sum / pixels : 0.0;
+  const double mean = pixels > 0 ? sum / pixels : 0.0;
+  return 0.01 * mean * mean;
 }
 
-// Mean over a tile of the squared relative error of one half's mean, from the spread of its two groups.
-double half_error(const Film& film, const Tile& tile, int half, double scale) {
+// The squared relative error of one half's mean, from the spread of its two groups and the other half's mean.
+double half_error(const Film& film, int x, int y, int half, double scale) {
+  const Vec3d spread = (film.group_mean(x, y, 2 * half) - film.group_mean(x, y, 2 * half + 1)) * 0.5;
+  const Vec3d value = half_mean(film, x, y, 1 - half);
   double sum = 0;
-  for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      const Vec3d a = film.group_mean(x, y, 2 * half), b = film.group_mean(x, y, 2 * half + 1);
-      for (int c = 0; c < 3; ++c) {
-        const double mean = (a[c] + b[c]) / 2, spread = (a[c] - b[c]) / 2, below = mean * mean + scale;
-        if (below > 0) sum += spread * spread / below;
-      }
-    }
-  return sum / (3.0 * tile.pixels());
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double below = value[c] * value[c] + scale;
+    if (below > 0) sum += spread[c] * spread[c] / below;
+  }
+  return sum / 3;
 }
 
 }  // namespace
@@ -42,44 +52,116 @@ double half_error(const Film& film, const Tile& tile, int half, double scale) {
 AdaptivePlan::AdaptivePlan(std::size_t tiles, double target, int most_samples)
     : target_(target), most_per_half_(std::max(most_samples / 2, 1)), states_(tiles) {
   CHECK_GT(target, 0);
+  for (TileState& state : states_) state.wanted.fill(std::min(least_samples / 2, most_per_half_));
 }
 
 // 2, 2, 4, 8, 16, then half as much again as there is, up to 64; pairs, for the half's two groups.
-int AdaptivePlan::next_count(int taken) const {
-  const int wanted = taken == 0 ? 2 : taken < least_samples / 2 ? taken : taken / 2;
-  return std::min({(wanted + 1) / 2 * 2, longest_pass, most_per_half_ - taken});
+int AdaptivePlan::next_count(int taken, int wanted) const {
+  const int step = taken == 0 ? 2 : taken < least_samples / 2 ? taken : taken / 2;
+  return std::min({(std::min(step, wanted - taken) + 1) / 2 * 2, longest_pass, most_per_half_ - taken});
 }
 
 SampleRun AdaptivePlan::run(std::size_t tile, int half) const {
   const TileState& state = states_[tile];
-  return {state.taken[half], state.active[half] ? next_count(state.taken[half]) : 0};
+  const int taken = state.taken[half], wanted = state.wanted[half];
+  return {taken, taken < wanted ? next_count(taken, wanted) : 0};
+}
+
+// The errors of each tile's halves, and of the picture.
+void AdaptivePlan::measure(const Film& film, const std::vector<Tile>& tiles) {
+  const std::array<double, 2> scale{scale_of(film, tiles, 0), scale_of(film, tiles, 1)};
+  double pixels = 0;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const Tile& tile = tiles[i];
+    TileState& state = states_[i];
+    state.error = {};
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        double both = 0;
+        for (int half = 0; half < 2; ++half) {
+          const double error = half_error(film, x, y, half, scale[1 - half]);
+          state.error[half] += error / tile.pixels();
+          both += error / 4;
+        }
+        errors.push_back(both);
+      }
+    state.weight = tile.pixels();
+    pixels += tile.pixels();
+  }
+  for (TileState& state : states_) state.weight /= pixels;
+  double sum = 0;
+  for (const double e : errors) sum += e;
+  estimate_ = {sum / pixels, 0};
+  for (const double e : errors)
+    if (e > outlier * estimate_.squared) estimate_.outliers += e / pixels;
+}
+
+// The roots of what the other half's errors make of each tile's variance a sample: the sum of samples is
+// least for an error where they are shared out like these.
+void AdaptivePlan::set_shares() {
+  for (int half = 0; half < 2; ++half) {
+    const int other = 1 - half;
+    double mean = 0;
+    for (const TileState& s : states_) mean += s.weight * s.error[other] * s.taken[other];
+    for (TileState& s : states_)
+      s.share[half] = std::sqrt(s.error[other] * s.taken[other] + least_share * mean);
+  }
+}
+
+// What one half wants of each tile: as much as would bring the picture to the aim, were this half as noisy as
+// the other.
+void AdaptivePlan::want(int half) {
+  const int other = 1 - half;
+  const auto count = [&](const TileState& s, double factor) {
+    return std::clamp(factor * s.share[half], double(s.taken[half]), double(most_per_half_));
+  };
+  const auto planned = [&](double factor) {
+    double sum = 0;
+    for (const TileState& s : states_)
+      sum += s.weight * s.error[other] * s.taken[other] / (2 * count(s, factor));
+    return sum;
+  };
+  const double goal = aim * aim * target_ * target_;
+  double lo = 0, hi = 0;
+  for (const TileState& s : states_)
+    if (s.share[half] > 0) hi = std::max(hi, most_per_half_ / s.share[half]);
+  if (planned(lo) <= goal) hi = lo;
+  for (int i = 0; i < 60 && lo < hi; ++i) {
+    const double middle = (lo + hi) / 2;
+    (planned(middle) > goal ? lo : hi) = middle;
+  }
+  for (TileState& s : states_) s.wanted[half] = static_cast<int>(std::ceil(count(s, hi)));
+}
+
+bool AdaptivePlan::satisfied(int half) const {
+  return std::all_of(states_.begin(), states_.end(),
+                     [&](const TileState& s) { return s.taken[half] >= s.wanted[half]; });
 }
 
 void AdaptivePlan::finish_pass(const Film& film, const std::vector<Tile>& tiles) {
-  const double mean = mean_value(film, tiles), scale = 0.01 * mean * mean;
-  double error = 0, pixels = 0, taken = 0, wanted = 0;
-  done_ = true;
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    TileState& state = states_[i];
-    const std::array<double, 2> errors{half_error(film, tiles[i], 0, scale),
-                                       half_error(film, tiles[i], 1, scale)};
-    for (int half = 0; half < 2; ++half) state.taken[half] += run(i, half).count;
-    const std::array<int, 2> n = state.taken;
-    for (int half = 0; half < 2; ++half) {
-      // Were this half as noisy a sample as the other: the error of the mean of both.
-      const int other = 1 - half;
-      const double both = errors[other] * (1 + double(n[other]) / std::max(n[half], 1)) / 4;
-      state.active[half] =
-          n[half] < most_per_half_ && (n[half] < least_samples / 2 || both > target_ * target_);
-      done_ &= !state.active[half];
-      taken += double(tiles[i].pixels()) * n[half];
-      wanted += double(tiles[i].pixels()) *
-                std::min<double>(most_per_half_, n[half] * std::max(1.0, both / (target_ * target_)));
-    }
-    error += (errors[0] + errors[1]) / 4 * tiles[i].pixels();
-    pixels += tiles[i].pixels();
+    const std::array<int, 2> counts{run(i, 0).count, run(i, 1).count};
+    for (int half = 0; half < 2; ++half) states_[i].taken[half] += counts[half];
   }
-  estimated_error_ = pixels > 0 ? std::sqrt(error / pixels) : 0;
+  measure(film, tiles);
+  if (!decides_ && satisfied(0)) {
+    decides_ = true;
+    set_shares();
+  }
+  if (decides_)
+    for (int half = 0; half < 2; ++half) {
+      if (final_[half]) continue;
+      want(half);
+      final_[half] = satisfied(half);
+    }
+  done_ = final_[0] && final_[1];
+  double taken = 0, wanted = 0;
+  for (const TileState& s : states_)
+    for (int half = 0; half < 2; ++half) {
+      taken += s.weight * s.taken[half];
+      wanted += s.weight * std::max(s.taken[half], s.wanted[half]);
+    }
   fraction_done_ = wanted > 0 ? taken / wanted : 1;
 }
 

@@ -2,11 +2,15 @@
 //
 // Counts that are decided from the very samples they sum favour blocks that look clean because they missed
 // their fireflies: the mean comes out too dark. So each block's samples are two halves of independent random
-// numbers, each half's count is decided from the errors that the other shows, and the picture is the mean of
-// the two halves' means, however many samples each took.
+// numbers, each half's counts are decided from the errors that the other shows, and the picture is the mean
+// of the two halves' means, however many samples each took.
+//
+// A half's error relative to the picture is its spread over what the *other* half says the picture is: over
+// its own mean a firefly would hide itself, as no spread of two numbers passes their mean.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -42,7 +46,12 @@ class AdaptivePlan {
   void finish_pass(const Film& film, const std::vector<Tile>& tiles);
   bool done() const { return done_; }
   // Of the picture so far, in the measure of `target`; 0 before the first decision.
-  double estimated_error() const { return estimated_error_; }
+  double estimated_error() const { return std::sqrt(estimate_.squared); }
+  // The share of its square in pixels that have more than outlier times the mean: a few samples that met what
+  // is rare and bright. What no sample has met is in no estimate, and where such samples make the most of it
+  // there is more of their kind to be met.
+  double outlier_share() const { return estimate_.squared > 0 ? estimate_.outliers / estimate_.squared : 0; }
+  static constexpr double outlier = 100;
   // Of all samples that will be taken, how many have been: a guess.
   double fraction_done() const { return fraction_done_; }
 
@@ -51,17 +60,31 @@ class AdaptivePlan {
 
  private:
   struct TileState {
-    std::array<int, 2> taken{};  // samples of each half
-    std::array<bool, 2> active{true, true};
+    std::array<int, 2> taken{};     // samples of each half
+    std::array<int, 2> wanted{};    // of each half in the end, as it looks now
+    std::array<double, 2> error{};  // squared, of each half's mean
+    double weight = 0;              // of its pixels in the picture
+    std::array<double, 2> share{};  // of each half's samples
   };
-  int next_count(int taken) const;
+  int next_count(int taken, int wanted) const;
+  void measure(const Film& film, const std::vector<Tile>& tiles);
+  void set_shares();
+  void want(int half);
+  bool satisfied(int half) const;
   static constexpr int longest_pass = 64;  // samples of a half: bounds what a tile holds in memory
 
   double target_;
   int most_per_half_;
   std::vector<TileState> states_;
+  bool decides_ = false;  // the least samples are there
+  std::array<bool, 2>
+      final_{};  // a half that was satisfied stays so: what the other learns because of it tells it nothing
   bool done_ = false;
-  double estimated_error_ = 0, fraction_done_ = 0;
+  struct Estimate {
+    double squared = 0, outliers = 0;
+  };
+  Estimate estimate_;
+  double fraction_done_ = 0;
 };
 
 }  // namespace tyndall::render

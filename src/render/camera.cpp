@@ -36,7 +36,7 @@ CameraRays::CameraRays(const compile::CompiledScene& world, const scene::Camera&
 }
 
 compile::Ray CameraRays::ray(int x, int y, float u, float v, float lens_u, float lens_v, double time) const {
-  const std::vector<scene::Camera>& motion = world_->scene.motion.camera;
+  const scene::Moving<scene::Camera>& motion = world_->scene.motion.camera;
   if (!motion.empty() && time > 0) {
     compile::Ray ray = CameraRays(*world_, scene::at(motion, time)).ray(x, y, u, v, lens_u, lens_v, 0);
     ray.time = time;

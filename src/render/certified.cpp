@@ -67,16 +67,17 @@ void certified_stretches(std::span<const CertifiedCell> cells, double tolerance,
     if (!one) {
       const double most = narrowest > 0 ? length / narrowest : infinity;
       const double by_budget = d > 0 ? std::min(d * d / (4 * std::max(allowed, 0.0)), most) : 0;
-      const double count = std::max({1.0, std::ceil(by_budget), std::ceil(length / widest)});
-      const auto n = static_cast<std::uint32_t>(std::min(count, 1e6));
-      out.push_back({c.t0, c.t1, n});
-      spent = std::min(spent + d * d / (4.0 * n), scratch.spent[i]);  // what was not kept is not paid back
+      constexpr double most_segments = 0x1p40;  // sums of so many are exact
+      const double n =
+          std::min(std::max({1.0, std::ceil(by_budget), std::ceil(length / widest)}), most_segments);
+      out.push_back({c.t0, c.t1, n, c.minorant, c.spread});
+      spent = std::min(spent + d * d / (4 * n), scratch.spent[i]);  // what was not kept is not paid back
       ++i;
       continue;
     }
     // One segment; over the next cells too, while it may be.
     double used = d * d / 4, end = c.t1;
-    float low = c.minorant, high = c.majorant;
+    float low = c.minorant, high = c.majorant, spread_of_all = c.spread;
     std::size_t k = i + 1;
     for (; k < cells.size() && cells[k].t0 == end && cells[k].t1 - c.t0 <= widest; ++k) {
       low = std::min(low, cells[k].minorant);
@@ -85,8 +86,9 @@ void certified_stretches(std::span<const CertifiedCell> cells, double tolerance,
       if (range * range > 4 * (scratch.spent[k] - spent)) break;
       used = range * range / 4;
       end = cells[k].t1;
+      spread_of_all = high - low;
     }
-    out.push_back({c.t0, end, 1});
+    out.push_back({c.t0, end, 1, low, spread_of_all});
     spent += used;
     i = k;
   }

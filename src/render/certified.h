@@ -20,10 +20,12 @@ struct CertifiedCell {
   float minorant = 0, majorant = 0, spread = 0;
 };
 
-// `count` equal segments over [t0, t1).
+// `count` equal segments over [t0, t1), a whole number that may be far beyond what can be laid; and bounds of
+// extinction.
 struct CertifiedStretch {
   double t0 = 0, t1 = 0;
-  std::uint32_t count = 0;
+  double count = 0;
+  float minorant = 0, spread = 0;
 };
 
 // Scratch of certified_stretches.

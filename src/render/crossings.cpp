@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "render/surface_walk.h"
 #include "render/worker.h"
 
 namespace tyndall::render {
@@ -17,18 +18,8 @@ using compile::SurfaceHit;
 // What passes less than this in all counts as opaque: a thousandth of a float's last digit.
 constexpr float least_pass = 1e-10f;
 
-// Nothing need be evaluated to know that the surface is all there: where bodies of glass overlap a boundary
-// may not be.
-bool certainly_stops(const CompiledScene& world, const SurfaceHit& hit) {
-  const compile::CompiledMaterial& material = world.materials[hit.material];
-  return material.opaque && !(world.solids && material.transmits);
-}
-
-// The rest of a ray behind a surface that was met at t of it.
-Ray behind(const CompiledScene& world, const Ray& ray, const SurfaceHit& hit) {
-  const Vec3d off = hit.normal * compile::surface_offset(world, hit.position);
-  return {dot(hit.normal, ray.direction) > 0 ? hit.position + off : hit.position - off, ray.direction,
-          ray.t_max - hit.t, ray.time};
+bool is_opaque(const CompiledScene& world, const SurfaceHit& hit) {
+  return world.materials[hit.material].opaque;
 }
 
 }  // namespace
@@ -60,37 +51,31 @@ const MetSurface& MetSurfaces::choose(double u) const {
 std::optional<SurfaceHit> trace_through(const CompiledScene& world, const Ray& ray, RayKind kind,
                                         Worker& worker, std::vector<Crossing>& crossings) {
   crossings.clear();
-  Ray rest = ray;
-  double start = 0;
+  SurfaceWalk walk(world, ray, kind, worker.met_together);
   float passed = 1;
-  for (;;) {
-    auto hit = world.closest_hit(rest, kind);
-    if (!hit || hit->light != compile::no_index || certainly_stops(world, *hit)) {
-      if (hit) hit->t += start;
-      return hit;
-    }
+  while (const auto hit = walk.next()) {
+    if (hit->light != compile::no_index || is_opaque(world, *hit)) return hit;
     SurfacePoint surface = evaluate_surface(world, *hit, ray.direction, worker);
     passed *= 1 - surface.opacity;
-    rest = behind(world, rest, *hit);
-    hit->t += start;
     if (passed < least_pass) return hit;
-    start = hit->t;
     crossings.push_back({hit->t, std::move(surface)});
   }
+  return std::nullopt;
 }
 
 float pass_to_light(const CompiledScene& world, const Ray& ray, std::uint32_t target_light, Worker& worker) {
-  Ray rest = ray;
+  SurfaceWalk walk(world, ray, RayKind::shadow, worker.met_together);
   float passed = 1;
   while (passed >= least_pass) {
-    const auto hit = world.closest_hit(rest, RayKind::shadow);
+    const auto hit = walk.next();
     if (!hit) return passed;
     if (hit->light != compile::no_index) {
       if (hit->light != target_light) return 0;
+    } else if (is_opaque(world, *hit)) {
+      return 0;
     } else {
       passed *= 1 - evaluate_opacity(world, *hit, worker);
     }
-    rest = behind(world, rest, *hit);
   }
   return 0;
 }

@@ -25,7 +25,7 @@ ShadowRay shadow_ray(const compile::CompiledScene& world, const Vec3d& from, dou
   const double end = light.distance * shadow_end;
   if (!std::holds_alternative<optics::MeshLight>(world.lights[index]))
     return {{from, light.direction, end, time}, index, contribution, seed};
-  const double margin = 2 * compile::surface_offset(world, from + light.direction * light.distance);
+  const double margin = 2 * world.light_errors[index];
   return {{from, light.direction, std::max(end - margin, 0.0), time}, compile::no_index, contribution, seed};
 }
 

@@ -22,8 +22,9 @@ std::span<const std::unique_ptr<EmissionRay>> EmissionBatch::trace(const compile
   for (const auto& r : rays) {
     ++worker.statistics.shadow_rays;
     constexpr auto kind = compile::RayKind::scattered;
-    const auto hit = world.features.see_through ? trace_through(world, r->ray, kind, worker, r->crossings)
-                                                : world.closest_hit(r->ray, kind);
+    const auto hit = world.features.walks_surfaces()
+                         ? trace_through(world, r->ray, kind, worker, r->crossings)
+                         : world.closest_hit(r->ray, kind);
     r->ray.t_max = hit ? hit->t : infinity;
     r->march.crossings.clear();
     for (const Crossing& c : r->crossings) r->march.crossings.push_back({c.t, 1 - c.surface.opacity});

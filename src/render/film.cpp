@@ -24,14 +24,21 @@ Vec3d mean_of(const Vec3d& sum, std::uint32_t samples) {
 
 }  // namespace
 
-Film::Film(int width, int height, int groups, AovSet aovs)
-    : width_(width), height_(height), groups_(groups), aovs_(aovs) {
-  CHECK_GT(width, 0);
-  CHECK_GT(height, 0);
+Film::Film(int width, int height, int groups, AovSet aovs, std::optional<PixelWindow> window)
+    : width_(width),
+      height_(height),
+      groups_(groups),
+      aovs_(aovs),
+      window_(window.value_or(PixelWindow{0, 0, width, height})) {
+  CHECK_LE(0, window_.x0);
+  CHECK_LE(0, window_.y0);
+  CHECK_LT(window_.x0, window_.x1);
+  CHECK_LT(window_.y0, window_.y1);
+  CHECK_LE(window_.x1, width);
+  CHECK_LE(window_.y1, height);
   CHECK(groups == 1 || groups == error_groups);
-  const std::size_t pixels = static_cast<std::size_t>(width) * height;
-  sums_.resize(pixels * groups);
-  planes_.resize(pixels * recorded_channels(aovs));
+  sums_.resize(pixel_count() * static_cast<std::size_t>(groups));
+  planes_.resize(pixel_count() * recorded_channels(aovs));
 }
 
 void Film::add(int x, int y, const Rgb& radiance, int group) {
@@ -43,7 +50,7 @@ void Film::add(int x, int y, const Rgb& radiance, int group) {
 }
 
 void Film::add(int x, int y, const AovSample& sample) {
-  const std::size_t pixels = static_cast<std::size_t>(width_) * height_;
+  const std::size_t pixels = pixel_count();
   FixedSum* to = planes_.data() + index(x, y);
   for (const AovInfo& info : aov_infos()) {
     if (!aovs_.has(info.aov) || !is_recorded(info.aov)) continue;
@@ -95,7 +102,7 @@ Vec3d Film::variance(int x, int y) const {
 
 // The mean over the pixel's samples of the channels that begin at `plane`.
 Vec3d Film::aov_value(const AovInfo& info, std::size_t plane, int x, int y) const {
-  const std::size_t pixels = static_cast<std::size_t>(width_) * height_;
+  const std::size_t pixels = pixel_count();
   const std::uint32_t count = samples(x, y);
   switch (info.aov) {
     case Aov::samples:
@@ -122,8 +129,16 @@ Vec3d Film::aov_value(const AovInfo& info, std::size_t plane, int x, int y) cons
   return mean_of(sum, count);
 }
 
+std::uint64_t Film::pixels_without_samples() const {
+  std::uint64_t count = 0;
+  for (int y = window_.y0; y < window_.y1; ++y)
+    for (int x = window_.x0; x < window_.x1; ++x) count += samples(x, y) == 0;
+  return count;
+}
+
 image::Image Film::image() const {
-  image::Image out{width_, height_, {"R", "G", "B"}, {}};
+  const auto [x0, y0, x1, y1] = window_;
+  image::Image out{x1 - x0, y1 - y0, {"R", "G", "B"}, {}, {x0, y0, width_, height_}};
   for (const AovInfo& info : aov_infos()) {
     if (!aovs_.has(info.aov)) continue;
     const std::string name(info.name);
@@ -131,9 +146,9 @@ image::Image Film::image() const {
     for (int c = 0; c < info.channels; ++c)
       out.channels.push_back(info.channels == 1 ? name : name + '.' + suffixes[c]);
   }
-  out.pixels.reserve(static_cast<std::size_t>(width_) * height_ * out.channels.size());
-  for (int y = 0; y < height_; ++y)
-    for (int x = 0; x < width_; ++x) {
+  out.pixels.reserve(pixel_count() * out.channels.size());
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) {
       const Rgb c = mean(x, y);
       out.pixels.insert(out.pixels.end(), {c.x, c.y, c.z});
       std::size_t plane = 0;

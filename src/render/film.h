@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/vec.h"
@@ -22,8 +23,10 @@ class FixedSum {
   void add(const FixedSum& other) { sum_ += other.sum_; }
   double value() const { return static_cast<double>(sum_) * 0x1p-64; }
 
- private:
   static constexpr double largest_addend = 0x1p38;
+  static constexpr double fine_addend = 0x1p-40;  // kept to 2^-24 of itself
+
+ private:
   __int128 sum_ = 0;
 };
 
@@ -31,13 +34,22 @@ class FixedSum {
 // sample s in group s mod 4. Groups 0 and 1 are the first half of a pixel's samples, 2 and 3 the second.
 inline constexpr int error_groups = 4;
 
+// A rectangle of pixels, half-open.
+struct PixelWindow {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+// Pixels are named as those of the whole picture, whatever part of it the film is.
 class Film {
  public:
-  // `groups` is 1 or error_groups. Only the outputs in `aovs` take memory.
-  Film(int width, int height, int groups = 1, AovSet aovs = {});
+  // `groups` is 1 or error_groups. Only the outputs in `aovs` take memory, and only the pixels in `window`
+  // (without one: all), which must lie within the picture.
+  Film(int width, int height, int groups = 1, AovSet aovs = {}, std::optional<PixelWindow> window = {});
 
+  // Of the whole picture.
   int width() const { return width_; }
   int height() const { return height_; }
+  const PixelWindow& window() const { return window_; }
   int groups() const { return groups_; }
   const AovSet& aovs() const { return aovs_; }
   // Adds one sample's radiance (finite: bad samples are counted by the caller and add as black).
@@ -54,7 +66,9 @@ class Film {
   // Estimated variance of mean(): from the spread of the groups, unbiased when they are of one size; 0 with
   // one group.
   Vec3d variance(int x, int y) const;
-  // Channels R G B, then those of the outputs: "depth", "normal.X", "albedo.R", …
+  std::uint64_t pixels_without_samples() const;
+  // The window's pixels, with its place in the whole. Channels R G B, then those of the outputs: "depth",
+  // "normal.X", "albedo.R", …
   image::Image image() const;
 
  private:
@@ -63,12 +77,20 @@ class Film {
     std::uint32_t samples = 0;
   };
   static_assert(sizeof(Sums) <= 64);
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
+  std::size_t window_width() const { return static_cast<std::size_t>(window_.x1 - window_.x0); }
+  std::size_t pixel_count() const {
+    return window_width() * static_cast<std::size_t>(window_.y1 - window_.y0);
+  }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - window_.y0) * window_width() +
+           static_cast<std::size_t>(x - window_.x0);
+  }
   const Sums& sums(int x, int y, int group) const { return sums_[index(x, y) * groups_ + group]; }
   Vec3d aov_value(const AovInfo& info, std::size_t plane, int x, int y) const;
 
   int width_, height_, groups_;
   AovSet aovs_;
+  PixelWindow window_;
   std::vector<Sums> sums_;
   // A plane after another: each channel of each recorded output; after those, with depth, how many samples
   // met a surface.

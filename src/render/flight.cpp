@@ -43,11 +43,9 @@ double uniform_extinction(const CompiledScene& world, const compile::CompiledVol
   worker.outputs.clear();
   for (float& v : values) worker.outputs.push_back(&v);
   lanes.run(1, worker.outputs);
+  limit_extinction(world, volume.medium, worker.outputs, 1, worker);
   float greatest = 0;
-  for (const std::uint8_t k : medium.extinction_sigma_t) {
-    clamp_bad_values(&values[k], 1, false, volume.medium, k, worker);
-    greatest = std::max(greatest, values[k]);
-  }
+  for (const std::uint8_t k : medium.extinction_sigma_t) greatest = std::max(greatest, values[k]);
   return greatest;
 }
 

@@ -36,11 +36,8 @@ class ActiveStretches {
   std::uint32_t next_ = 0;
 };
 
-// Cuts the ray at every end of a stretch and at every crossing, and lays segments into the regions between,
-// where some volume is.
-void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
-  m.regions.clear();
-  std::vector<double>& edges = worker.edges;
+// The ends of stretches and the crossings, in order.
+void find_edges(const March& m, std::vector<double>& edges) {
   edges.clear();
   for (const Stretch& s : m.stretches) edges.insert(edges.end(), {s.t0, s.t1});
   if (!edges.empty())
@@ -49,8 +46,32 @@ void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   }
+}
 
-  double wanted = 0;  // segments, before the bound
+// Shares out the limit over regions that want more in all.
+void limit_segments(const CompiledScene& world, double wanted, Worker& worker, March& m) {
+  SegmentAllotment allotment(wanted, m.regions.size());
+  SegmentShortage shortage(world);
+  ActiveStretches stretches(m.stretches, worker.active);
+  for (Region& region : m.regions) {
+    double step = infinity;
+    shortage.begin_part();
+    for (const std::uint32_t i : stretches.between(region.t)) {
+      step = std::min(step, m.stretches[i].step);
+      shortage.add(m.stretches[i]);
+    }
+    region.count = allotment.next(wanted_segments(region.t.length(), step));
+    shortage.end_part(region.t.length(), region.count);
+  }
+  shortage.count_in(worker.statistics);
+}
+
+// Cuts the ray at every edge, and lays segments into the regions between, where some volume is.
+void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
+  m.regions.clear();
+  const std::vector<double>& edges = worker.edges;
+  find_edges(m, worker.edges);
+  double wanted = 0;  // segments, before the limit
   ActiveStretches stretches(m.stretches, worker.active);
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
     Region region{{edges[e], edges[e + 1]}, 0, 0, false};
@@ -63,18 +84,12 @@ void lay_segments(const CompiledScene& world, Worker& worker, March& m) {
       region.scatters |= world.scene.media[world.volumes[s.volume].medium].scatters();
       step = std::min(step, s.step);
     }
-    const double segments = std::max(1.0, std::ceil(region.t.length() / step));  // step infinite: one
+    const double segments = wanted_segments(region.t.length(), step);
     region.count = static_cast<std::uint32_t>(std::min<double>(segments, max_segments));
     wanted += segments;
     m.regions.push_back(region);
   }
-  if (wanted > max_segments) {
-    ++worker.statistics.widened_marches;
-    const double shrink =
-        std::max(1.0, double{max_segments} - static_cast<double>(m.regions.size())) / wanted;
-    for (Region& r : m.regions)
-      r.count = std::max(1u, static_cast<std::uint32_t>(r.count * std::min(1.0, shrink)));
-  }
+  if (wanted > max_segments) limit_segments(world, wanted, worker, m);
 
   m.count = m.progress.laid = 0;
   for (Region& r : m.regions) {
@@ -151,27 +166,26 @@ void evaluate_batch(const CompiledScene& world, std::span<const MarchRequest> re
   }
   MediumLanes lanes(world, program, worker);
   lanes.reserve(count);
-  if (!world.media[medium].homogeneous) {
-    std::size_t lane = 0;
-    for (const MarchBatchEntry& e : entries) {
-      const MarchRequest& request = requests[e.request];
-      const March& m = *request.out;
-      const Block& b = m.blocks[e.block];
-      const double* const t0 = m.t0.data() + b.first;
-      const compile::CompiledVolume& volume = world.volumes[b.volume];
-      if (places == Places::at_starts)
-        lanes.set(volume, m.ray, lane, PlacedSamples{t0, b.row_length});
-      else
-        lanes.set(volume, m.ray, lane,
-                  SegmentSamples{t0, m.dt.data() + b.first, request.seed, b.first, b.row_length});
-      lane += b.row_length;
-    }
+  std::size_t lane = 0;
+  for (const MarchBatchEntry& e : entries) {
+    const MarchRequest& request = requests[e.request];
+    const March& m = *request.out;
+    const Block& b = m.blocks[e.block];
+    const double* const t0 = m.t0.data() + b.first;
+    const compile::CompiledVolume& volume = world.volumes[b.volume];
+    if (world.media[medium].homogeneous)
+      lanes.set_time(lane, m.ray.time);
+    else if (places == Places::at_starts)
+      lanes.set(volume, m.ray, lane, PlacedSamples{t0, b.row_length});
+    else
+      lanes.set(volume, m.ray, lane,
+                SegmentSamples{t0, m.dt.data() + b.first, request.seed, b.first, b.row_length});
+    lane += b.row_length;
   }
   worker.outputs.clear();
   for (std::size_t k = 0; k < program.outputs.size(); ++k) worker.outputs.push_back(rows + k * count);
   lanes.run(count, worker.outputs);
-  for (std::size_t k = 0; k < worker.outputs.size(); ++k)
-    clamp_bad_values(worker.outputs[k], count, world.media[medium].may_be_negative[k], medium, k, worker);
+  limit_outputs(world, medium, worker.outputs, count, worker);
 }
 
 // Runs the programs over the new blocks: one batch a medium.

@@ -14,6 +14,7 @@
 #include "base/vec.h"
 #include "compile/compiled_scene.h"
 #include "optics/phase.h"
+#include "render/segment_limit.h"
 #include "render/stretches.h"
 
 namespace tyndall::render {
@@ -114,9 +115,6 @@ struct March {
     return Rgb(Vec3d{rows[0][i], rows[1][i], rows[2][i]});
   }
 };
-
-// At most this many segments a march; a longer ray gets wider ones (counted in the statistics).
-inline constexpr std::uint32_t max_segments = 4096;
 
 // Where in its segment sample i of a march is taken, in (0, 1): random for even i, mirrored for the odd i
 // after it. Each place is uniform (so the optical depth's mean is exact), what is linear over a pair cancels,

@@ -47,25 +47,77 @@ void MediumLanes::run(std::size_t first, std::size_t lanes, double time, std::sp
   worker_.machine.run(program_, inputs, lanes, outputs);
 }
 
-void clamp_bad_values(float* values, std::size_t count, bool negative_ok, std::uint32_t medium,
-                      std::size_t output, Worker& worker) {
-  const float lowest = negative_ok ? -largest_value : 0.0f;
+namespace {
+
+struct BadCounts {
+  std::uint64_t undefined = 0, below = 0, above = 0;
+  void note(float v, float lowest) { ++(std::isnan(v) ? undefined : v < lowest ? below : above); }
+  void add_to(BadValueCounts& counts, std::uint32_t medium, std::size_t which) const {
+    if (undefined > 0) counts.add_medium(medium, which, BadValue::Kind::undefined, undefined);
+    if (below > 0) counts.add_medium(medium, which, BadValue::Kind::below, below);
+    if (above > 0) counts.add_medium(medium, which, BadValue::Kind::above, above);
+  }
+};
+
+bool all_within(const float* values, std::size_t count, float lowest, float highest) {
   bool good = true;
-  for (std::size_t i = 0; i < count; ++i) good &= values[i] >= lowest && values[i] <= largest_value;
-  if (good) return;
-  std::uint64_t not_finite = 0, negative = 0;
+  for (std::size_t i = 0; i < count; ++i) good &= values[i] >= lowest && values[i] <= highest;
+  return good;
+}
+
+// Counts what lies out of range; whether anything does.
+bool count_given(const float* values, std::size_t count, const scene::GivenNumber& given,
+                 std::uint32_t medium, std::size_t which, Worker& worker) {
+  const auto lowest = static_cast<float>(given.lowest), highest = static_cast<float>(given.highest);
+  if (all_within(values, count, lowest, highest)) return false;
+  BadCounts bad;
+  for (std::size_t i = 0; i < count; ++i)
+    if (!(values[i] >= lowest && values[i] <= highest)) bad.note(values[i], lowest);
+  bad.add_to(worker.bad_values, medium, which);
+  return true;
+}
+
+// Replaces what is out of range, undefined values by 0. Counts them where they are not told already.
+void limit_output(float* values, std::size_t count, float lowest, bool told, std::uint32_t medium,
+                  std::size_t which, Worker& worker) {
+  if (all_within(values, count, lowest, largest_value)) return;
+  BadCounts bad;
   for (std::size_t i = 0; i < count; ++i) {
     float& v = values[i];
-    if (std::isnan(v) || std::abs(v) > largest_value) {
-      ++not_finite;
-      v = std::isnan(v) ? 0.0f : std::clamp(v, lowest, largest_value);
-    } else if (v < lowest) {
-      ++negative;
-      v = lowest;
-    }
+    if (v >= lowest && v <= largest_value) continue;
+    bad.note(v, lowest);
+    v = std::isnan(v) ? 0.0f : std::clamp(v, lowest, largest_value);
   }
-  if (not_finite > 0) worker.bad_values.add_medium(medium, output, BadValue::Kind::not_finite, not_finite);
-  if (negative > 0) worker.bad_values.add_medium(medium, output, BadValue::Kind::negative, negative);
+  if (!told) bad.add_to(worker.bad_values, medium, which);
+}
+
+}  // namespace
+
+void limit_outputs(const compile::CompiledScene& world, std::uint32_t medium, std::span<float* const> outputs,
+                   std::size_t count, Worker& worker) {
+  const std::vector<scene::GivenNumber>& given = world.scene.media[medium].given;
+  bool told = false;
+  for (std::size_t i = 0; i < given.size(); ++i)
+    told |= count_given(outputs[given[i].output], count, given[i], medium, i, worker);
+  const std::vector<compile::OutputUse>& uses = world.media[medium].uses;
+  for (std::size_t k = 0; k < outputs.size(); ++k)
+    if (uses[k] != compile::OutputUse::shown)
+      limit_output(outputs[k], count, uses[k] == compile::OutputUse::coefficient ? 0.0f : -largest_value,
+                   told, medium, given.size() + k, worker);
+}
+
+void limit_extinction(const compile::CompiledScene& world, std::uint32_t medium,
+                      std::span<float* const> outputs, std::size_t count, Worker& worker) {
+  const scene::Medium& m = world.scene.media[medium];
+  bool told = false;
+  for (std::size_t i = 0; i < m.given.size(); ++i)
+    if (const auto& output = m.given[i].extinction_output)
+      told |= count_given(outputs[*output], count, m.given[i], medium, i, worker);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::uint8_t output = m.extinction_sigma_t[c];
+    if (c > 0 && output == m.extinction_sigma_t[c - 1]) continue;
+    limit_output(outputs[output], count, 0, told, medium, m.given.size() + m.sigma_t[c], worker);
+  }
 }
 
 std::vector<BadValue> BadValueCounts::list(const scene::Scene& scene) const {
@@ -73,10 +125,23 @@ std::vector<BadValue> BadValueCounts::list(const scene::Scene& scene) const {
   for (const auto& [key, count] : counts_) {
     if (key.of_material) {
       const scene::Material& material = scene.materials[key.shader];
-      out.push_back({key.kind, material.output_spans[key.output], material.name, count});
+      const scene::GivenNumber& given = material.given[key.output];
+      out.push_back({key.kind, given.span, material.name, count, given.name, given.lowest, given.highest});
+      if (std::isinf(given.highest)) out.back().instead = "the shape's own normal";
+      continue;
+    }
+    const scene::Medium& medium = scene.media[key.shader];
+    if (key.output < medium.given.size()) {
+      const scene::GivenNumber& given = medium.given[key.output];
+      out.push_back({key.kind, given.span, medium.name, count, given.name, given.lowest, given.highest});
     } else {
-      const scene::Medium& medium = scene.media[key.shader];
-      out.push_back({key.kind, medium.output_spans[key.output], medium.name, count});
+      out.push_back({key.kind,
+                     medium.output_spans[key.output - medium.given.size()],
+                     medium.name,
+                     count,
+                     {},
+                     0,
+                     double{largest_value}});
     }
   }
   return out;

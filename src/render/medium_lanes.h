@@ -32,9 +32,13 @@ class MediumLanes {
       put(vm::Input::p_x, medium_from_render.point(ray.origin), medium_from_render.vector(ray.direction));
     }
     if (needs_world_) put(vm::Input::P_x, ray.origin + world_.origin, ray.direction);
-    if (needs_time_ && samples.count > 0 &&
-        (worker_.lane_times.empty() || worker_.lane_times.back().time != ray.time))
-      worker_.lane_times.push_back({first, ray.time});
+    if (samples.count > 0) set_time(first, ray.time);
+  }
+  // The same for lanes of a medium that is one value for the whole ray: from `first` on they are of this
+  // time.
+  void set_time(std::size_t first, double time) {
+    if (needs_time_ && (worker_.lane_times.empty() || worker_.lane_times.back().time != time))
+      worker_.lane_times.push_back({first, time});
   }
   // Runs the program over `lanes` lanes; output k goes to outputs[k]. Rays of different times are batches of
   // their own when the program reads the time.
@@ -50,9 +54,13 @@ class MediumLanes {
   bool needs_time_ = false;  // the ray's
 };
 
-// Replaces what a shader must not give: not-finite values (by 0; +infinity by `largest_value`) and, unless
-// `may_be_negative`, negative ones (by 0). Counts them.
-void clamp_bad_values(float* values, std::size_t count, bool may_be_negative, std::uint32_t medium,
-                      std::size_t output, Worker& worker);
+// Makes a batch's outputs of a medium's full program what the renderer can take, and counts what is bad: what
+// the body gave out of range; where all of that is good, coefficients that are not finite or negative.
+// Undefined values count as 0, infinite ones as `largest_value`.
+void limit_outputs(const compile::CompiledScene& world, std::uint32_t medium, std::span<float* const> outputs,
+                   std::size_t count, Worker& worker);
+// The same for the program of extinction alone.
+void limit_extinction(const compile::CompiledScene& world, std::uint32_t medium,
+                      std::span<float* const> outputs, std::size_t count, Worker& worker);
 
 }  // namespace tyndall::render

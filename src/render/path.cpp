@@ -12,6 +12,7 @@
 #include "render/decisions.h"
 #include "render/emission_light.h"
 #include "render/light_met.h"
+#include "render/light_sum.h"
 #include "render/path_light.h"
 #include "render/path_roulette.h"
 #include "render/path_state.h"
@@ -48,21 +49,29 @@ class PathTracer {
         worker_(worker),
         radiance_(outputs.radiance),
         aovs_(outputs.aovs),
-        trace_(outputs.trace) {}
+        trace_(outputs.trace),
+        deadline_(outputs.deadline) {}
 
   // All paths go one ray on at a time: rays, one march of all, what each meets, one batch of shadow rays.
-  void run() {
+  // False when the deadline passed before the last of them ended.
+  bool run() {
     std::fill(radiance_.begin(), radiance_.end(), Rgb{});
     std::fill(aovs_.begin(), aovs_.end(), AovSample{});
     while (start_paths(), active_ > 0) {
+      if (deadline_ != nullptr && deadline_->passed()) return false;
       worker_.march_requests.clear();
       for (std::size_t i = 0; i < active_; ++i) trace_ray(slot(i));
       propagate(world_, settings_, std::span(worker_.slots).first(active_), worker_);
       const std::size_t before = active_;
-      for (std::size_t i = 0; i < before; ++i) ended_.push_back(!advance(i));
+      for (std::size_t i = 0; i < before; ++i) {
+        ended_.push_back(!advance(i));
+        if (worker_.shadows.size() >= shadows_together) trace_shadows();
+      }
       trace_shadows();
+      trace_emission_rays();
       remove_ended();
     }
+    return true;
   }
 
  private:
@@ -103,8 +112,9 @@ class PathTracer {
     path.current ^= 1;
     ++worker_.statistics.rays;
     const RayKind kind = s.origin.kind == PathOrigin::Kind::camera ? RayKind::camera : RayKind::scattered;
-    const auto hit = world_.features.see_through ? trace_through(world_, s.ray, kind, worker_, path.crossings)
-                                                 : world_.closest_hit(s.ray, kind);
+    const auto hit = world_.features.walks_surfaces()
+                         ? trace_through(world_, s.ray, kind, worker_, path.crossings)
+                         : world_.closest_hit(s.ray, kind);
     // An optional is copied whole even when it holds nothing.
     if (hit)
       path.hit = hit;
@@ -202,15 +212,24 @@ class PathTracer {
       if (c->surface.opacity >= 0.5f) meet(c->t, c->surface.normal);
   }
 
+  // Whether light is summed apart before a sample's is.
+  bool sums_apart() const { return settings_.light_samples > 1; }
+
   void trace_shadows() {
+    LightSum sum(radiance_, aovs_), sum_of_higher(radiance_, aovs_);
     for (const ShadowRay& ray :
          worker_.shadows.trace(world_, settings_.transmittance, settings_.orders, worker_)) {
-      radiance_[ray.sample] += ray.contribution + ray.higher;
-      if (!aovs_.empty()) {
-        aovs_[ray.sample].add(ray.part, ray.contribution);
-        aovs_[ray.sample].add(ray.higher_part, ray.higher);
-        aovs_[ray.sample].cost += 1 + ray.segments;
+      if (sums_apart()) {
+        sum.add(ray.sample, ray.part, ray.contribution);
+        sum_of_higher.add(ray.sample, ray.higher_part, ray.higher);
+      } else {
+        radiance_[ray.sample] += ray.contribution + ray.higher;
+        if (!aovs_.empty()) {
+          aovs_[ray.sample].add(ray.part, ray.contribution);
+          aovs_[ray.sample].add(ray.higher_part, ray.higher);
+        }
       }
+      if (!aovs_.empty()) aovs_[ray.sample].cost += 1 + ray.segments;
       if (trace_ && !is_black(ray.contribution))
         say("  + ({:.6g}, {:.6g}, {:.6g}) direct light\n", ray.contribution.x, ray.contribution.y,
             ray.contribution.z);
@@ -218,17 +237,26 @@ class PathTracer {
         say("  + ({:.6g}, {:.6g}, {:.6g}) light scattered further, approximated\n", ray.higher.x,
             ray.higher.y, ray.higher.z);
     }
+    sum.finish();
+    sum_of_higher.finish();
     worker_.shadows.clear();
+  }
+
+  void trace_emission_rays() {
+    LightSum sum(radiance_, aovs_);
     for (const auto& ray : worker_.emission_rays.trace(world_, worker_)) {
-      radiance_[ray->sample] += ray->contribution;
-      if (!aovs_.empty()) {
-        aovs_[ray->sample].add(ray->part, ray->contribution);
-        aovs_[ray->sample].cost += 1 + ray->march.count;
+      if (sums_apart()) {
+        sum.add(ray->sample, ray->part, ray->contribution);
+      } else {
+        radiance_[ray->sample] += ray->contribution;
+        if (!aovs_.empty()) aovs_[ray->sample].add(ray->part, ray->contribution);
       }
+      if (!aovs_.empty()) aovs_[ray->sample].cost += 1 + ray->march.count;
       if (trace_ && !is_black(ray->contribution))
         say("  + ({:.6g}, {:.6g}, {:.6g}) emission of media, sampled\n", ray->contribution.x,
             ray->contribution.y, ray->contribution.z);
     }
+    sum.finish();
     worker_.emission_rays.clear();
   }
 
@@ -364,6 +392,9 @@ class PathTracer {
   // hundreds of lanes. Where no medium varies there are few segments, and more paths would leave the cache.
   std::size_t paths_together() const { return world_.features.heterogeneous ? 192 : 16; }
 
+  // Shadow rays of more paths wait for each other no longer than this.
+  static constexpr std::size_t shadows_together = 1 << 14;
+
   const Sampler& sampler() const { return *path_->sampler; }
   std::uint64_t id(Decision d, const PathState& s) const { return decision(d, s.depth, s.branch); }
   SobolPoint point(Decision d, const PathState& s) const { return sampler().point(id(d, s)); }
@@ -387,6 +418,7 @@ class PathTracer {
   std::span<Rgb> radiance_;
   std::span<AovSample> aovs_;
   std::string* trace_;
+  const Deadline* deadline_;
   std::size_t active_ = 0, started_ = 0;  // slots in use: the first; samples begun: the first
   std::vector<bool> ended_;               // of the slots that advanced in this round
   PathSlot* path_ = nullptr;              // the one at work
@@ -397,10 +429,10 @@ class PathTracer {
 
 }  // namespace
 
-void trace_paths(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
+bool trace_paths(const CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
                  std::span<const CameraSample> samples, Worker& worker, const PathOutputs& outputs) {
   CHECK_EQ(samples.size(), outputs.radiance.size());
-  PathTracer(world, camera, settings, samples, worker, outputs).run();
+  return PathTracer(world, camera, settings, samples, worker, outputs).run();
 }
 
 }  // namespace tyndall::render

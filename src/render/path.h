@@ -10,6 +10,7 @@
 
 #include "compile/compiled_scene.h"
 #include "render/camera.h"
+#include "render/deadline.h"
 #include "render/emission_field.h"
 #include "render/higher_orders.h"
 #include "render/render.h"
@@ -50,11 +51,14 @@ struct PathOutputs {
   std::span<Rgb> radiance;
   std::span<AovSample> aovs = {};  // as many, or none when nothing beside the picture is wanted
   std::string* trace = nullptr;    // gets a line of text for each event
+  const Deadline* deadline = nullptr;
 };
 
 // Radiance along each camera sample. Paths advance together, ray by ray, so that their marches fill whole
-// batches; what comes out for a sample depends on none of the others.
-void trace_paths(const compile::CompiledScene& world, const CameraRays& camera, const PathSettings& settings,
-                 std::span<const CameraSample> samples, Worker& worker, const PathOutputs& outputs);
+// batches; what comes out for a sample depends on none of the others. False when the deadline passed before
+// all of them ended: the results are then of no use.
+[[nodiscard]] bool trace_paths(const compile::CompiledScene& world, const CameraRays& camera,
+                               const PathSettings& settings, std::span<const CameraSample> samples,
+                               Worker& worker, const PathOutputs& outputs);
 
 }  // namespace tyndall::render

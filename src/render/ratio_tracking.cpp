@@ -106,12 +106,7 @@ void RatioTracking::evaluate(const compile::CompiledScene& world, std::span<cons
       worker.outputs.push_back(values_.data() + k * count);
     if (count > 0) lanes.run(count, worker.outputs);
     worker.statistics.segments += count;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint8_t output = medium.extinction_sigma_t[c];
-      if (c == 0 || output != medium.extinction_sigma_t[c - 1])
-        clamp_bad_values(worker.outputs[output], count, false, walks_[first].medium, medium.sigma_t[c],
-                         worker);
-    }
+    limit_extinction(world, walks_[first].medium, worker.outputs, count, worker);
     lane = 0;
     for (std::size_t w = first; w < last; lane += walks_[w].count, ++w) {
       Vec3d& transmittance = transmittance_[walks_[w].ray];

@@ -10,6 +10,7 @@
 #include "base/check.h"
 #include "base/parallel.h"
 #include "render/adaptive.h"
+#include "render/deadline.h"
 #include "render/path.h"
 #include "render/worker.h"
 
@@ -18,11 +19,11 @@ namespace tyndall::render {
 namespace {
 
 using compile::CompiledScene;
-using Clock = std::chrono::steady_clock;
+using Clock = Deadline::Clock;
 
 constexpr int tile_size = 16;
 
-std::vector<Tile> tiles_of(const RenderOptions::Crop& crop) {
+std::vector<Tile> tiles_of(const PixelWindow& crop) {
   std::vector<Tile> tiles;
   for (int y = crop.y0; y < crop.y1; y += tile_size)
     for (int x = crop.x0; x < crop.x1; x += tile_size)
@@ -62,16 +63,44 @@ void sum_into(Statistics& total, const Worker& worker) {
   total.marches += s.marches;
   total.segments += s.segments;
   total.cut_majorants += s.cut_majorants;
-  total.widened_marches += s.widened_marches;
+  total.widened_steps.add_all(s.widened_steps);
+  total.missed_tolerances.add_all(s.missed_tolerances);
   total.cut_paths += s.cut_paths;
   total.cut_throughput += s.cut_throughput;
   total.bad_samples += s.bad_samples;
+  total.clipped_samples += s.clipped_samples;
+  total.light += s.light;
+  total.lost_light += s.lost_light;
   total.vm_runs += worker.machine.counters().runs;
   total.lanes_issued += worker.machine.counters().lanes_issued;
   total.lanes_used += worker.machine.counters().lanes_used;
   total.vm_instructions += worker.machine.counters().instructions;
   const auto& bad = s.first_bad_sample;
   if (bad && (!total.first_bad_sample || *bad < *total.first_bad_sample)) total.first_bad_sample = bad;
+}
+
+// Indices of refraction are found out when the scene is compiled.
+void note_bad_iors(const CompiledScene& world, BadValueCounts& counts) {
+  for (std::uint32_t i = 0; i < world.materials.size(); ++i)
+    if (const auto ior = world.materials[i].bad_ior)
+      counts.add_material(i, *world.scene.materials[i].ior,
+                          std::isnan(*ior) ? BadValue::Kind::undefined
+                          : *ior < 1       ? BadValue::Kind::below
+                                           : BadValue::Kind::above);
+}
+
+// What the film's range loses of a sample.
+void note_film_range(const Rgb& radiance, Statistics& statistics) {
+  const Vec3d light(radiance);
+  statistics.light += std::abs(light.x) + std::abs(light.y) + std::abs(light.z);
+  const double most = std::max({std::abs(light.x), std::abs(light.y), std::abs(light.z)});
+  if (most <= FixedSum::largest_addend && (most == 0 || most >= FixedSum::fine_addend)) return;
+  statistics.clipped_samples += most > FixedSum::largest_addend;
+  for (std::size_t c = 0; c < 3; ++c) {
+    FixedSum kept;
+    kept.add(light[c]);
+    statistics.lost_light += std::abs(light[c] - kept.value());
+  }
 }
 
 // Most samples a pixel when only an error or a time says when to end.
@@ -91,19 +120,22 @@ class Render {
         progress_(progress),
         settings_(path_settings(world, options)),
         camera_(world),
-        film_(world.scene.settings.width, world.scene.settings.height, settings_.groups, options.aovs),
-        tiles_(tiles_of(options.crop.value_or(RenderOptions::Crop{0, 0, film_.width(), film_.height()}))),
+        film_(world.scene.settings.width, world.scene.settings.height, settings_.groups, options.aovs,
+              options.crop),
+        tiles_(tiles_of(film_.window())),
         most_samples_(most_samples(world, options)) {
-    for (int i = 0; i < worker_count(options.threads); ++i) {
+    deadline_.stop = options.stop;
+    // A limit that the clock cannot hold is none.
+    constexpr double longest = 1e9;
+    if (options.time_limit && *options.time_limit < longest)
+      deadline_.end = start_ + std::chrono::duration_cast<Clock::duration>(
+                                   std::chrono::duration<double>(*options.time_limit));
+    for (int i = 0; i < loop_workers(tiles_.size(), options.threads); ++i) {
       workers_.push_back(std::make_unique<Worker>());
       workers_.back()->skips_empty = options.skip_empty;
       workers_.back()->machine.observe(options.shader_observer);
     }
     for (const Tile& tile : tiles_) {
-      CHECK_LE(0, tile.x0);
-      CHECK_LE(0, tile.y0);
-      CHECK_LE(tile.x1, film_.width());
-      CHECK_LE(tile.y1, film_.height());
       pixels_ += static_cast<std::uint64_t>(tile.pixels());
     }
   }
@@ -113,11 +145,12 @@ class Render {
       run_adaptive();
     else
       run_uniform();
-    return {std::move(film_), statistics()};
+    Statistics total = statistics();  // which looks at the film
+    return {std::move(film_), std::move(total)};
   }
 
  private:
-  bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
+  bool stopped() const { return deadline_.stopped(); }
 
   // Passes over the whole picture, the same samples for every pixel.
   void run_uniform() {
@@ -129,6 +162,7 @@ class Render {
       render_pass([&](std::size_t i, std::vector<CameraSample>& samples) {
         add_samples(tiles_[i], samples, length, [&](int k) { return first + static_cast<std::uint64_t>(k); });
       });
+      if (uneven_) break;
       done += length;
       if (done < most_samples_) end_pass();
     }
@@ -159,9 +193,10 @@ class Render {
                       [&](int k) { return sample_of_half(half, run.first + k); });
         }
       });
-      if (stopped()) break;
+      if (uneven_) break;
       plan.finish_pass(film_, tiles_);
       estimated_error_ = plan.estimated_error();
+      outlier_share_ = plan.outlier_share();
       fraction_scale_ = plan.fraction_done() / static_cast<double>(samples_done_.load());
       if (!plan.done()) end_pass();
     }
@@ -178,32 +213,44 @@ class Render {
   // Renders what list(tile, samples) asks for.
   template <class List>
   void render_pass(List&& list) {
-    parallel_for(tiles_.size(), options_.threads, [&](std::size_t i, int w) {
-      if (stopped()) return;
+    const int threads = parallel_for(tiles_.size(), options_.threads, [&](std::size_t i, int w) {
       Worker& worker = *workers_[w];
       worker.tile_samples.clear();
       list(i, worker.tile_samples);
       if (worker.tile_samples.empty()) return;
-      render_samples(worker);
-      report(samples_done_.fetch_add(worker.tile_samples.size()) + worker.tile_samples.size());
+      if (deadline_.passed() || !render_samples(worker))
+        uneven_ = true;
+      else
+        report(samples_done_.fetch_add(worker.tile_samples.size()) + worker.tile_samples.size());
     });
+    threads_ = std::max(threads_, threads);
+    threads_missed_ = std::max(threads_missed_, loop_workers(tiles_.size(), options_.threads) - threads);
+    out_of_time_ |= uneven_ && !stopped();
   }
 
-  void render_samples(Worker& worker) {
+  // False when the deadline passed before all paths ended: none of them is counted.
+  bool render_samples(Worker& worker) {
     const std::vector<CameraSample>& samples = worker.tile_samples;
+    const std::uint64_t samples_before = worker.statistics.samples;
     worker.tile_radiance.resize(samples.size());
     worker.tile_aovs.resize(options_.aovs.recorded() ? samples.size() : 0);
-    trace_paths(world_, camera_, settings_, samples, worker, {worker.tile_radiance, worker.tile_aovs});
+    if (!trace_paths(world_, camera_, settings_, samples, worker,
+                     {worker.tile_radiance, worker.tile_aovs, nullptr, &deadline_})) {
+      worker.statistics.samples = samples_before;
+      return false;
+    }
     for (std::size_t i = 0; i < samples.size(); ++i) {
       add(samples[i], worker.tile_radiance[i], worker);
       if (!worker.tile_aovs.empty()) film_.add(samples[i].x, samples[i].y, worker.tile_aovs[i]);
     }
+    return true;
   }
 
   void add(const CameraSample& s, const Rgb& radiance, Worker& worker) {
     const int group = static_cast<int>(s.sample % static_cast<std::uint64_t>(settings_.groups));
     if (all_finite(radiance)) {
       film_.add(s.x, s.y, radiance, group);
+      note_film_range(radiance, worker.statistics);
       return;
     }
     film_.add(s.x, s.y, Rgb{}, group);
@@ -240,11 +287,20 @@ class Render {
       bad_values.add_all(worker->bad_values);
     }
     if (total.samples > 0) total.cut_throughput /= static_cast<double>(total.samples);
+    note_bad_iors(world_, bad_values);
     total.bad_values = bad_values.list(world_.scene);
+    for (const compile::CoarseField& field : world_.coarse_fields)
+      total.bad_values.push_back(
+          {BadValue::Kind::coarse, field.span, field.shader, 0, field.name, 0, double{field.reach}});
     total.seconds = seconds();
     total.stopped = stopped();
     total.out_of_time = out_of_time_;
+    total.uneven = uneven_;
+    if (uneven_ || total.samples < pixels_) total.pixels_without_samples = film_.pixels_without_samples();
+    total.threads = threads_;
+    total.threads_missed = threads_missed_;
     total.estimated_error = estimated_error_;
+    total.outlier_share = outlier_share_;
     return total;
   }
 
@@ -260,10 +316,14 @@ class Render {
   std::vector<std::unique_ptr<Worker>> workers_;
   std::atomic<std::uint64_t> samples_done_{0};
   double fraction_scale_ = 0;  // of the work, per sample
-  double estimated_error_ = 0;
+  double estimated_error_ = 0, outlier_share_ = 0;
   bool out_of_time_ = false;
+  std::atomic<bool> uneven_{false};
+  int threads_ = 0, threads_missed_ = 0;  // most of a pass
   std::mutex report_mutex_;
-  Clock::time_point start_ = Clock::now(), last_report_ = start_;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point last_report_ = start_;
+  Deadline deadline_;
 };
 
 }  // namespace
@@ -280,7 +340,9 @@ Replay replay(const CompiledScene& world, const RenderOptions& options, int x, i
   const CameraSample camera_sample{x, y, sample};
   PathOutputs outputs{std::span(&out.radiance, 1)};
   outputs.trace = &out.trace;
-  trace_paths(world, camera, path_settings(world, options), std::span(&camera_sample, 1), worker, outputs);
+  const bool whole = trace_paths(world, camera, path_settings(world, options), std::span(&camera_sample, 1),
+                                 worker, outputs);
+  CHECK(whole);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/source.h"
@@ -44,17 +45,16 @@ struct RenderOptions {
   bool emission_sampling = true;  // media that emit are sampled as lights; false to measure what that saves
   bool sunward = true;            // rays are sent towards distant lights (sunward.h); the same
   // Half-open pixel rectangle and sample range; defaults: everything.
-  struct Crop {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  };
-  std::optional<Crop> crop;
+  std::optional<PixelWindow> crop;
   int first_sample = 0;
   std::optional<int> sample_count;  // default: the scene's
   AovSet aovs;                      // outputs beside the picture
   // Ends once the root of the picture's mean squared relative error is below this (adaptive.h), each block
   // with as many samples as it needs; sample_count is then the most that a pixel gets.
   std::optional<double> error;
-  std::optional<double> time_limit;         // [s]: ends, with whole passes, when it is over
+  // [s]: ends when it is over, with whole passes as far as can be told from those before. A block of pixels
+  // that is at work then is not counted, so that each has all samples of a pass or none.
+  std::optional<double> time_limit;
   const std::atomic<bool>* stop = nullptr;  // set to end early with what there is
 };
 
@@ -66,10 +66,27 @@ struct Progress {
 };
 
 struct BadValue {  // of a shader: what, how often, where
-  enum class Kind : std::uint8_t { not_finite, negative } kind{};
+  // coarse: a field of a lattice at places as far from 0 as `highest` (compile::CoarseField).
+  enum class Kind : std::uint8_t { undefined, below, above, coarse } kind{};
   Span span;           // the output's statement
   std::string shader;  // name of the medium or material
   std::uint64_t count = 0;
+  std::string output{};                       // its name, or that of a parameter; empty: a coefficient
+  double lowest = 0, highest = 0;             // what it is limited to; undefined ones are 0, limited
+  std::optional<std::string_view> instead{};  // what is taken instead, where it is no number
+};
+
+// Rays on which something asked for was not reached, and the worst of them.
+struct Shortfall {
+  std::uint64_t rays = 0;
+  double asked = 1, reached = 0;  // reached is greater
+
+  void add(double ray_asked, double ray_reached) { add_all({1, ray_asked, ray_reached}); }
+  void add_all(const Shortfall& other) {
+    const auto badness = [](const Shortfall& s) { return std::pair(s.reached / s.asked, s.reached); };
+    rays += other.rays;
+    if (badness(other) > badness(*this)) asked = other.asked, reached = other.reached;
+  }
 };
 
 // Counters, summed over the threads at the end.
@@ -77,8 +94,12 @@ struct Statistics {
   std::uint64_t samples = 0, rays = 0, shadow_rays = 0, marches = 0, segments = 0;
   std::uint64_t vm_runs = 0, lanes_issued = 0, lanes_used = 0, vm_instructions = 0;
   std::uint64_t bad_samples = 0;
-  std::uint64_t cut_majorants = 0;    // bounds of extinction too great to track through
-  std::uint64_t widened_marches = 0;  // marches whose segments were widened to fit the bound
+  std::uint64_t cut_majorants = 0;  // bounds of extinction too great to track through
+  // Rays that wanted more segments than a ray may have (segment_limit.h): given steps [m] that were widened,
+  // and tolerances that are not proven to be kept.
+  Shortfall widened_steps, missed_tolerances;
+  std::uint64_t clipped_samples = 0;  // brighter than the film can take
+  double light = 0, lost_light = 0;   // of all samples together, and of it what the film's range lost
   std::uint64_t cut_paths = 0;        // paths ended by `bounces` while they still carried light
   double cut_throughput = 0;          // mean over camera samples of the throughput so cut
   struct BadSample {
@@ -92,9 +113,14 @@ struct Statistics {
   // extinction alone, in turn; of every material. A program that another one equals has none of its own.
   std::vector<std::vector<std::uint64_t>> medium_lanes, material_lanes;
   double seconds = 0;
-  bool stopped = false;        // by RenderOptions::stop
-  bool out_of_time = false;    // ended by the time limit
+  bool stopped = false;      // by RenderOptions::stop
+  bool out_of_time = false;  // ended by the time limit
+  bool uneven = false;       // ended within a pass: some pixels have more samples than others
+  std::uint64_t pixels_without_samples = 0;
+  int threads = 0;             // that took part
+  int threads_missed = 0;      // that would have, had the system given them
   double estimated_error = 0;  // with RenderOptions::error: of the picture, in its measure
+  double outlier_share = 0;    // of its square, in pixels that have more than a hundred times the mean
 };
 
 struct RenderResult {

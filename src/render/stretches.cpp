@@ -48,7 +48,8 @@ void certify(compile::GridWalk& walk, const VolumeInterval& stay, const Compiled
   worker.certified_stretches.clear();
   const auto flush = [&] {
     for (const CertifiedStretch& s : worker.certified_stretches)
-      out.push_back({s.t0, s.t1, stay.volume, s.count == 1 ? infinity : (s.t1 - s.t0) / (s.count - 0.5)});
+      out.push_back({s.t0, s.t1, stay.volume, s.count == 1 ? infinity : (s.t1 - s.t0) / (s.count - 0.5),
+                     s.minorant, s.spread});
   };
   compile::MajorantSegment s;
   while (walk.next(s)) {

@@ -17,6 +17,7 @@ struct Stretch {
   double t0 = 0, t1 = 0;
   std::uint32_t volume = 0;
   double step = 0;
+  float minorant = 0, spread = 0;  // [1/m] what is proven of its extinction; where the step is automatic
   std::uint32_t first_region = 0, region_count = 0;
 };
 

@@ -3,21 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compile/solids.h"
 #include "render/worker.h"
 
 namespace tyndall::render {
 
 namespace {
 
-float clamped(float v, float highest, std::uint32_t material, std::size_t output, Worker& worker) {
-  if (v >= 0 && v <= largest_value) return std::min(v, highest);
-  worker.bad_values.add_material(
-      material, output, v < 0 && v >= -largest_value ? BadValue::Kind::negative : BadValue::Kind::not_finite);
+// Within [0, highest], undefined values as 0; others are counted.
+float limited(float v, float highest, std::uint32_t material, std::size_t output, Worker& worker) {
+  if (v >= 0 && v <= highest) return v;
+  worker.bad_values.add_material(material, output,
+                                 std::isnan(v) ? BadValue::Kind::undefined
+                                 : v < 0       ? BadValue::Kind::below
+                                               : BadValue::Kind::above);
   return v > 0 ? highest : 0.0f;
 }
 
-// Outputs of a material's program at a hit, clamped to what the renderer can take.
+// Outputs of a material's program at a hit, limited to what the renderer can take.
 class MaterialAt {
  public:
   MaterialAt(const compile::CompiledScene& world, const compile::SurfaceHit& hit, Worker& worker)
@@ -53,12 +55,12 @@ class MaterialAt {
 
   float number(const std::optional<std::uint8_t>& output, float standard) const {
     if (!output) return standard;
-    return clamped(worker_.material_outputs[*output], 1.0f, index_, *output, worker_);
+    return limited(worker_.material_outputs[*output], 1.0f, index_, *output, worker_);
   }
   Rgb color(const scene::RgbOutputs& outputs, float highest) const {
     Rgb c;
     for (std::size_t k = 0; k < 3; ++k)
-      c[k] = clamped(worker_.material_outputs[outputs[k]], highest, index_, outputs[k], worker_);
+      c[k] = limited(worker_.material_outputs[outputs[k]], highest, index_, outputs[k], worker_);
     return c;
   }
   // A direction of any length; zero where it is not finite.
@@ -66,7 +68,7 @@ class MaterialAt {
     Vec3d v;
     for (std::size_t k = 0; k < 3; ++k) v[k] = double{worker_.material_outputs[outputs[k]]};
     if (all_finite(v)) return v;
-    worker_.bad_values.add_material(index_, outputs[0], BadValue::Kind::not_finite);
+    worker_.bad_values.add_material(index_, outputs[0], BadValue::Kind::undefined);
     return {};
   }
 
@@ -75,21 +77,6 @@ class MaterialAt {
   const scene::Material& material_;
   Worker& worker_;
 };
-
-// What the body behind a boundary of glass stands in.
-struct Outside {
-  double ior = 1;
-  bool hides = false;  // it outranks the body: there is no boundary
-};
-Outside outside_of(const compile::CompiledScene& world, const compile::SurfaceHit& hit) {
-  if (!world.solids || hit.sheet || hit.shape == compile::no_index ||
-      !world.materials[hit.material].transmits)
-    return {};
-  const auto holder = world.solids->at(hit.position, hit.time, hit.shape);
-  if (!holder) return {};
-  const compile::SolidRank own{world.scene.shapes[hit.shape].priority, hit.shape};
-  return {holder->ior, own < holder->rank};
-}
 
 // The normal to shade with, on the side of the ray: bent towards it where it looks away, as smoothed ones do
 // at silhouettes.
@@ -111,12 +98,11 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
 
   SurfacePoint point;
   const bool from_inside = dot(hit.normal, direction) > 0;
-  const Vec3d off = hit.normal * compile::surface_offset(world, hit.position);
   point.position = hit.position;
   point.time = hit.time;
   point.normal = from_inside ? -hit.normal : hit.normal;
-  point.offset_position = from_inside ? hit.position - off : hit.position + off;
-  point.behind_position = from_inside ? hit.position + off : hit.position - off;
+  point.offset_position = hit.position + point.normal * hit.offset_before;
+  point.behind_position = hit.position - point.normal * hit.offset_behind;
   point.opacity = at.number(material.opacity, 1);
   if (material.emission) point.emission = at.color(*material.emission, largest_value);
 
@@ -135,8 +121,6 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
     point.reflectance = base_color;
     return point;
   }
-  const Outside outside = outside_of(world, hit);
-  if (outside.hides) point.opacity = 0;
   optics::SurfaceParameters p;
   p.base_color = base_color;
   p.metallic = at.number(material.metallic, p.metallic);
@@ -149,7 +133,8 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
     point.reflectance = base_color;
     return point;
   }
-  const double eta = from_inside && !hit.sheet ? outside.ior / compiled.ior : compiled.ior / outside.ior;
+  const double eta =
+      from_inside && !hit.sheet ? hit.outside_ior / compiled.ior : compiled.ior / hit.outside_ior;
   if (!hit.sheet) point.eta = eta;
   point.model.emplace(*world.albedo_tables, p, eta, hit.sheet, point.frame.local(-direction));
   point.reflectance = point.model->albedo();
@@ -160,7 +145,6 @@ SurfacePoint evaluate_surface(const compile::CompiledScene& world, const compile
 
 float evaluate_opacity(const compile::CompiledScene& world, const compile::SurfaceHit& hit, Worker& worker) {
   const scene::Material& material = world.scene.materials[hit.material];
-  if (outside_of(world, hit).hides) return 0;
   return material.opacity ? MaterialAt(world, hit, worker).number(material.opacity, 1) : 1.0f;
 }
 

@@ -15,12 +15,35 @@ namespace tyndall::render {
 
 namespace {
 
-// Segments for a stay of `length` metres at a step; counts the stays that had to be widened.
-std::uint32_t segments_for(double length, double step, Worker& worker) {
-  const double wanted = std::ceil(length / step);
-  if (wanted <= max_segments) return std::max(static_cast<std::uint32_t>(wanted), 1u);
-  ++worker.statistics.widened_marches;
-  return max_segments;
+// Whether a shadow ray's stretch is marched: there is no closed form, and no tracking through a grid.
+bool is_marched(const compile::CompiledScene& world, const Stretch& s, Transmittance method) {
+  const compile::CompiledVolume& volume = world.volumes[s.volume];
+  return !world.media[volume.medium].constant_sigma_t &&
+         !(by_ratio(method) && volume.grid != compile::no_index);
+}
+
+// What a shadow ray's marched stretches get of the segments that it may have.
+SegmentAllotment allotment_of(const compile::CompiledScene& world, std::span<const Stretch> stretches,
+                              Transmittance method, Worker& worker) {
+  double wanted = 0;
+  std::size_t parts = 0;
+  for (const Stretch& s : stretches) {
+    if (!is_marched(world, s, method)) continue;
+    wanted += wanted_segments(s.t1 - s.t0, s.step);
+    ++parts;
+  }
+  const SegmentAllotment allotment(wanted, parts);
+  if (wanted <= max_segments) return allotment;
+  SegmentAllotment given = allotment;
+  SegmentShortage shortage(world);
+  for (const Stretch& s : stretches) {
+    if (!is_marched(world, s, method)) continue;
+    shortage.begin_part();
+    shortage.add(s);
+    shortage.end_part(s.t1 - s.t0, given.next(wanted_segments(s.t1 - s.t0, s.step)));
+  }
+  shortage.count_in(worker.statistics);
+  return allotment;
 }
 
 // Each march of one ray has its own jitter; the first has the ray's.
@@ -83,6 +106,7 @@ void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32
     whole_stays(world, rays_[ray].ray, compile::RayKind::shadow, worker, stretches_);
   else
     find_stretches(world, rays_[ray].ray, compile::RayKind::shadow, worker, stretches_);
+  SegmentAllotment allotment = allotment_of(world, stretches_, method, worker);
   std::uint32_t laid = 0;  // segments of each march
   for (const Stretch& s : stretches_) {
     const compile::CompiledVolume& volume = world.volumes[s.volume];
@@ -92,13 +116,13 @@ void ShadowBatch::collect_stays(const compile::CompiledScene& world, std::uint32
       closed_[ray] += Vec3d(*medium.constant_sigma_t) * length;
       continue;
     }
-    if (by_ratio(method) && volume.grid != compile::no_index) {
+    if (!is_marched(world, s, method)) {
       ratio_.add(ray, {s.t0, s.t1, s.volume}, volume.medium);
       continue;
     }
     if (estimates_[ray].count == 0) lay_estimates(ray, method);
     const Estimates& e = estimates_[ray];
-    std::uint32_t n = segments_for(length, s.step, worker);
+    std::uint32_t n = allotment.next(wanted_segments(length, s.step));
     if (method == Transmittance::jackknife) n = (n + 1) / 2;  // of two marches: as many in all
     const double dt = length / n;
     for (std::uint32_t march = e.first; march < e.first + e.count; ++march)
@@ -214,11 +238,7 @@ void ShadowBatch::march_stays(const compile::CompiledScene& world, Worker& worke
       worker.outputs.push_back(values_.data() + k * count);
     lanes.run(count, worker.outputs);
     worker.statistics.segments += count;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint8_t output = medium.extinction_sigma_t[c];
-      if (c > 0 && output == medium.extinction_sigma_t[c - 1]) continue;
-      clamp_bad_values(worker.outputs[output], count, false, first->medium, medium.sigma_t[c], worker);
-    }
+    limit_extinction(world, first->medium, worker.outputs, count, worker);
     lane = 0;
     Vec3d tau;
     for (auto s = first; s != last; lane += s->count, ++s)

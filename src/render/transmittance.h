@@ -56,6 +56,7 @@ class ShadowBatch {
   // `orders` see their own share of the extinction; not with methods by ratio.
   std::span<const ShadowRay> trace(const compile::CompiledScene& world, Transmittance method,
                                    std::span<const ScatteringOrder> orders, Worker& worker);
+  std::size_t size() const { return rays_.size(); }
   void clear() {
     rays_.clear();
     higher_.clear();

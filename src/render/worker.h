@@ -25,13 +25,14 @@
 namespace tyndall::render {
 
 // Shaders give no more than this; larger values are taken for infinite.
-inline constexpr float largest_value = compile::largest_coefficient;
+inline constexpr float largest_value = scene::largest_coefficient;
 
-// Counts of bad values by (shader, output, kind).
+// Counts of bad values by (shader, output, kind). Of media: the number of what is given
+// (scene::GivenNumber), then of outputs.
 class BadValueCounts {
  public:
-  void add_medium(std::uint32_t medium, std::size_t output, BadValue::Kind kind, std::uint64_t count) {
-    counts_[{false, medium, output, kind}] += count;
+  void add_medium(std::uint32_t medium, std::size_t which, BadValue::Kind kind, std::uint64_t count) {
+    counts_[{false, medium, which, kind}] += count;
   }
   void add_material(std::uint32_t material, std::size_t output, BadValue::Kind kind) {
     ++counts_[{true, material, output, kind}];
@@ -70,6 +71,7 @@ struct Worker {
   };
   std::vector<LaneTime> lane_times;  // of one batch, when its program reads the time
   std::vector<float> material_outputs;
+  std::vector<compile::SurfaceHit> met_together;  // SurfaceWalk's
   std::vector<CameraSample> tile_samples;
   std::vector<Rgb> tile_radiance;
   std::vector<AovSample> tile_aovs;

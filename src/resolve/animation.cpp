@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "resolve/run.h"
+#include "scene/ranges.h"
 
 namespace tyndall::resolve {
 
@@ -54,11 +55,17 @@ scene::Animation read_animation(Reader& reader) {
   scene::Animation result;
   if (!reader.ok()) return result;
   const double first = given.frames.first, last = given.frames.last - (given.frames.excludes_last ? 1 : 0);
-  constexpr double limit = 1e9;  // frame numbers fit an int with room to spare
-  if (given.frames.step != 1 || first != std::floor(first) || last != std::floor(last) ||
-      std::abs(first) > limit || std::abs(last) > limit) {
+  if (given.frames.step != 1 || first != std::floor(first) || last != std::floor(last)) {
     reader.error(reader.place("frames"), "'frames' must be a range of whole numbers with step 1",
-                 "write `frames: 1..48`; --frames renders every n-th");
+                 "write `frames: 1..48`; which of them is rendered is the command line's to say: --frame 12");
+    return result;
+  }
+  constexpr scene::WholeRange range = scene::frame_range;
+  for (const double frame : {first, last}) {
+    if (std::abs(frame) <= static_cast<double>(range.most)) continue;
+    reader.error(reader.place("frames"),
+                 fmt::format("'frames' reaches {:.0f}: frame numbers go from {} to {}", frame, range.least,
+                             range.most));
     return result;
   }
   result = {given.fps, static_cast<int>(first), static_cast<int>(last), given.shutter};

@@ -1,8 +1,6 @@
 // The caches of media and materials: see bodies.h.
 #include "resolve/bodies.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "base/check.h"
@@ -19,17 +17,6 @@ std::optional<eval::Body> body_of(Run& run, const Thing& thing) {
   CHECK(body);
   if (body->item) run.bodies.compiled.insert(body->item);
   return run.evaluator.bound(*body, thing.span);
-}
-
-// The name by which an unnamed body is looked at: its line, "line:12"; "line:12:40" with its column where
-// another one has the line already.
-void name_by_place(const Run& run, const eval::Body& body, std::string& name,
-                   std::unordered_map<std::string, Span>& taken) {
-  if (body.item) return;
-  const LineColumn at = run.sources[body.definition.source].locate(body.definition.begin);
-  name = fmt::format("line:{}", at.line);
-  if (taken.try_emplace(name, body.definition).first->second != body.definition)
-    name += fmt::format(":{}", at.column);
 }
 
 // Whether a body says anything of how much light passes through.
@@ -57,7 +44,6 @@ scene::MediumId medium_of(Run& run, const Thing& thing) {
   if (!is_new) return known->second;
   auto medium = shader::compile_medium(run.context, *body, run.options.shader);
   if (!medium) return {};
-  name_by_place(run, *body, medium->name, run.bodies.unnamed_media);
   run.scene.media.push_back(std::move(*medium));
   return run.bodies.media[body->key] = scene::MediumId(run.scene.media.size() - 1);
 }
@@ -70,7 +56,6 @@ scene::MaterialId material_of(Run& run, const Thing& thing) {
   const auto [known, is_new] = run.bodies.materials.try_emplace(body->key);
   if (is_new) {
     if (auto material = shader::compile_material(run.context, *body, run.options.shader)) {
-      name_by_place(run, *body, material->name, run.bodies.unnamed_materials);
       run.scene.materials.push_back(std::move(*material));
       known->second = scene::MaterialId(run.scene.materials.size() - 1);
       if (sets_transparency(run, *body->tree, body->block))

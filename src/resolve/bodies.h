@@ -21,7 +21,6 @@ struct Bodies {
   // The same by the address of a value, which `kept` keeps from being used again: no key is built for each
   // thing.
   std::unordered_map<const eval::Heavy*, scene::MaterialId> material_of_value;
-  std::unordered_map<std::string, Span> unnamed_media, unnamed_materials;  // by "line:12", of the first there
   std::unordered_set<std::uint32_t> may_let_through;  // materials that set transmission or opacity
   std::vector<eval::Value> kept;
   scene::MaterialId default_material;

@@ -3,6 +3,7 @@
 
 #include "resolve/nested.h"
 #include "resolve/run.h"
+#include "syntax/foreign_words.h"
 
 namespace tyndall::resolve {
 
@@ -10,9 +11,12 @@ namespace {
 
 void report_no_template(Run& run, const Site& site, const syntax::NameExpr& name, Span span) {
   const std::string_view word = run.symbols.text(name.symbol);
-  if (run.evaluator.names().builtin(name.symbol))
+  if (const eval::BuiltinEntry* builtin = run.evaluator.names().builtin(name.symbol))
     return run.diagnostics.error(span, fmt::format("'{}' gives a value and places nothing", word),
-                                 "use it in an expression: `let a = …`");
+                                 builtin->row->result.starts_with("transform")
+                                     ? "it stands in transform: …, and several are joined with '*': "
+                                       "translate((0, 1, 0)) * rotate_y(30deg)"
+                                     : "use it in an expression: `let a = …`");
   if (run.statements.find(name.symbol, {}))
     return run.diagnostics.error(span, fmt::format("'{}' takes its parameters in braces", word),
                                  fmt::format("write `{} {{ … }}`", word));
@@ -20,8 +24,9 @@ void report_no_template(Run& run, const Site& site, const syntax::NameExpr& name
   for (const eval::Scope* scope = site.scope.get(); scope; scope = scope->parent.get())
     for (const eval::Binding& binding : scope->bindings)
       if (binding.value.type == eval::Type::function) templates.push_back(run.symbols.text(binding.symbol));
+  const std::string_view foreign = syntax::help_for_foreign_word(syntax::ForeignUse::statement, word);
   report_undefined(run, name.symbol, span, fmt::format("no template '{}'", word),
-                   did_you_mean(word, templates));
+                   foreign.empty() ? did_you_mean(word, templates) : std::string(foreign));
 }
 
 // The value that is called; an error value after reporting that there is none.
@@ -51,7 +56,9 @@ void run_call(Run& run, const Site& site, const syntax::CallItem& item) {
         callee_span,
         function ? fmt::format("'{}' gives a value and places nothing", name)
                  : fmt::format("'{}' is {}, not a template", name, eval::describe(callee.type)),
-        "a template is `def name(…) { … }`");
+        callee.type == eval::Type::object
+            ? fmt::format("an object is placed: place {} {{ transform: … }}", name)
+            : std::string("a template is `def name(…) { … }`"));
   if (!run.may_repeat(1, expr.span)) return;
   const auto scope = run.evaluator.bind_arguments(*function->tree, definition->parameters, function->scope,
                                                   *site.tree, call->arguments, site.scope, name, expr.span);
@@ -61,7 +68,7 @@ void run_call(Run& run, const Site& site, const syntax::CallItem& item) {
   Site inside = site;
   inside.tree = function->tree;
   inside.scope = scope;
-  std::vector<std::string> included;
+  std::unordered_set<std::string> included;
   inside.included = &included;
   run_block(run, inside, definition->body);
   report_unused(run, *scope);

@@ -1,6 +1,7 @@
 // The picture files of a scene: found beside the file that names them, decoded once something looks them up.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -11,8 +12,8 @@ namespace tyndall::resolve {
 
 struct Run;
 
-// Pixels of the largest picture: 16384 x 8192.
-inline constexpr std::size_t max_image_pixels = std::size_t{1} << 27;
+// Memory of all pictures of a scene, at 4 bytes a number: two of 8192 x 4096 in colour and more.
+inline constexpr std::uint64_t max_picture_bytes = std::uint64_t{1} << 30;
 
 class Images final : public eval::ImageReader {
  public:
@@ -20,6 +21,9 @@ class Images final : public eval::ImageReader {
 
   std::string find(const std::string& name, Span span) override;
   std::vector<PlanePointer> planes(const eval::Image& image) override;
+
+  // What another run of the same scene has decoded.
+  void share(const Images& other) { known_ = other.known_; }
 
   // While nothing will be rendered from what is evaluated (bodies that nothing uses), lookups are in
   // stand-ins and no file is decoded.
@@ -30,6 +34,7 @@ class Images final : public eval::ImageReader {
 
   Run& run_;
   std::map<std::pair<std::string, std::string>, std::vector<PlanePointer>> known_;  // by path and channel
+  std::uint64_t bytes_left_ = max_picture_bytes;
   bool stand_in_ = false;
 };
 

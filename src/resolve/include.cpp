@@ -15,13 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One name for a file however it is spelt; the path itself when the system knows none.
-std::string canonical_name(const fs::path& path) {
-  std::error_code failed;
-  const fs::path result = fs::weakly_canonical(path, failed);
-  return failed ? path.lexically_normal().string() : result.string();
-}
-
 // The whole file, or nothing after an error at `span`.
 std::optional<std::string> read_file(Run& run, const fs::path& path, Span span) {
   std::error_code failed;
@@ -46,25 +39,31 @@ const syntax::SyntaxTree* tree_of(Run& run, const fs::path& path, const std::str
   std::optional<std::string> text = read_file(run, path, span);
   if (!text) return nullptr;
   const SourceId source = run.sources.add(path.string(), std::move(*text));
-  const syntax::TokenList tokens = syntax::lex(run.sources, source, run.diagnostics);
-  known->second = std::make_unique<syntax::SyntaxTree>(
-      syntax::parse(run.sources, source, tokens, run.symbols, run.diagnostics));
+  Diagnostics found;
+  const syntax::TokenList tokens = syntax::lex(run.sources, source, found);
+  auto tree =
+      std::make_unique<syntax::SyntaxTree>(syntax::parse(run.sources, source, tokens, run.symbols, found));
+  if (found.has_errors() && fs::path(key).extension() != ".tyn") {
+    // Perhaps no scene at all, and nobody else's business: nothing of it is shown.
+    run.diagnostics.error(span, fmt::format("'{}' is not a scene", path.string()),
+                          "if it is meant to be one, its name ends in .tyn: then its mistakes are shown");
+    return nullptr;
+  }
+  for (const Diagnostic& d : found.all())
+    if (d.severity == Severity::error)
+      run.diagnostics.error(d.span, d.message, d.help, d.notes);
+    else
+      run.diagnostics.warning(d.span, d.message, d.help, d.notes);
+  known->second = std::move(tree);
   note_unread(run, *known->second);
   return known->second.get();
 }
 
 }  // namespace
 
-std::optional<fs::path> find_file(const Run& run, const std::string& including, const std::string& name) {
-  std::vector<fs::path> places = {fs::path(including).parent_path()};
-  for (const std::string& directory : run.options.include_directories) places.emplace_back(directory);
-  std::error_code failed;
-  for (const fs::path& place : places)
-    if (fs::exists(place / name, failed)) return place / name;
-  return std::nullopt;
+std::string main_file_key(const Run& run) {
+  return canonical_path(run.sources[run.main->source].name()).string();
 }
-
-std::string main_file_key(const Run& run) { return canonical_name(run.sources[run.main->source].name()); }
 
 void run_include(Run& run, const Site& site, const syntax::IncludeItem& include) {
   const Span span = (*site.tree)[include.file].span;
@@ -72,22 +71,17 @@ void run_include(Run& run, const Site& site, const syntax::IncludeItem& include)
       run.evaluator.evaluate_as(eval::Type::string, *site.tree, include.file, site.scope, "include");
   // Names that nothing defines may be in a file that could not be read.
   if (name.is_error()) return void(run.context.unread.file = true);
-  const auto path = find_file(run, run.sources[site.tree->source].name(), name.as_string());
+  const auto path = find_file(run, "file", name.as_string(), span);
   run.context.unread.file |= !path;
-  if (!path)
-    return run.diagnostics.error(span, fmt::format("no file '{}'", name.as_string()),
-                                 run.options.include_directories.empty()
-                                     ? "looked beside the including file; --include adds directories"
-                                     : fmt::format("looked beside the including file and in: {}",
-                                                   fmt::join(run.options.include_directories, ", ")));
-  const std::string key = canonical_name(*path);
+  if (!path) return;
+  const std::string key = canonical_path(*path).string();
   if (std::find(run.includes.open.begin(), run.includes.open.end(), key) != run.includes.open.end())
     return run.diagnostics.error(span, fmt::format("'{}' includes itself", name.as_string()),
                                  "take out one of the includes in the circle");
-  if (std::find(site.included->begin(), site.included->end(), key) != site.included->end()) return;
+  if (site.included->contains(key)) return;
   if (run.includes.open.size() > max_include_depth)
     return run.diagnostics.error(span, fmt::format("files included more than {} deep", max_include_depth));
-  site.included->push_back(key);
+  site.included->insert(key);
   run.diagnostics.push_context(span, "included from here");
   if (const syntax::SyntaxTree* tree = tree_of(run, *path, key, span)) {
     run.includes.open.push_back(key);

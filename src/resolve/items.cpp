@@ -1,6 +1,8 @@
 // The items of scene code, in order: definitions, variables, conditions, loops, statements.
 #include <fmt/format.h>
 
+#include <new>
+
 #include "base/overloaded.h"
 #include "resolve/run.h"
 
@@ -25,6 +27,7 @@ void run_assign(Run& run, const Site& site, const syntax::AssignItem& assign) {
     std::string help = did_you_mean(name, variables);
     if (help.empty())
       help = fmt::format("write `let {} = …`, or `var {} = …` for one that changes", name, name);
+    run.context.unread.definitions.push_back(assign.name.symbol);  // its uses are no mistakes
     return run.diagnostics.error(assign.name.span, fmt::format("no variable '{}' to set", name),
                                  std::move(help));
   }
@@ -99,7 +102,13 @@ void run_block(Run& run, const Site& site, syntax::BlockId block, Parameters par
     if (run.finished()) break;
     const syntax::Item& item = (*site.tree)[id];
     if (parameters == Parameters::read && std::holds_alternative<syntax::ParameterItem>(item.node)) continue;
-    run_item(run, site, item);
+    try {
+      run_item(run, site, item);
+    } catch (const std::bad_alloc&) {  // what the item had taken is free again
+      run.stopped = true;
+      run.diagnostics.error(item.span, "there is not enough memory for what this makes",
+                            "make less of it, or use a machine with more");
+    }
   }
   --run.block_depth;
 }
@@ -107,7 +116,7 @@ void run_block(Run& run, const Site& site, syntax::BlockId block, Parameters par
 void run_inner_block(Run& run, const Site& site, syntax::BlockId block, Parameters parameters) {
   Site inside = site;
   inside.scope = below(site.scope);
-  std::vector<std::string> included;
+  std::unordered_set<std::string> included;
   inside.included = &included;
   run_block(run, inside, block, parameters);
   report_unused(run, *inside.scope);
@@ -147,7 +156,7 @@ void run_for(Run& run, const Site& site, const syntax::ForItem& loop) {
   Site inside = site;
   for (std::int64_t i = 0; i < rounds && !run.finished() && run.diagnostics.error_count() == errors; ++i) {
     inside.scope = below(site.scope);
-    std::vector<std::string> included;
+    std::unordered_set<std::string> included;
     inside.included = &included;
     const eval::Value value =
         range ? eval::Value::number(eval::at(over, i)) : (*list)[static_cast<std::size_t>(i)];

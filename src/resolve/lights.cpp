@@ -94,7 +94,8 @@ void add_light(Run& run, ObjectLight light, const Transform& world_from_light) {
 
 template <class Light>
 void run_light(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
-  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, thing.block, row.name,
+                header(thing));
   Light light = reader.read_valid<Light>();
   const auto placement = reader.read<Placement>();
   reader.finish();
@@ -104,13 +105,14 @@ void run_light(Run& run, const Site& site, const syntax::ThingItem& thing, const
 
 // Spheres, quads and disks are lights of their own.
 void run_mesh_light(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
-  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, thing.block, row.name,
+                header(thing));
   const auto given = reader.read<MeshLightParameters>();
   const auto light = reader.read_valid<optics::MeshLight>();
   const auto placement = reader.read<Placement>();
-  reader.finish();
   std::optional<PlacedShape> in;
-  if (given.in.given()) in = read_shape_value(run, given.in, Inside::any);
+  if (given.in.given()) in = read_shape_value(run, given.in, Inside::any, reader);
+  reader.finish();
   if (!reader.ok() || !in) return;
   if (std::holds_alternative<scene::Plane>(in->shape))
     return reader.error(given.in.span, "a plane has no end: its light would be endless", "write a quad");

@@ -2,6 +2,8 @@
 #include "resolve/limits.h"
 
 #include "eval/evaluator.h"
+#include "resolve/images.h"
+#include "scene/ranges.h"
 #include "syntax/lexer.h"
 #include "syntax/recursive_parser.h"
 
@@ -10,6 +12,7 @@ namespace tyndall::resolve {
 std::span<const Limit> limits() {
   static constexpr Limit table[] = {
       {"file size", max_file_bytes, "bytes of a scene or an included file (256 MB)"},
+      {"words", syntax::max_tokens, "words, numbers and marks of a file"},
       {"name length", syntax::max_word_bytes, "characters of a name"},
       {"nesting", syntax::max_nesting, "brackets, blocks and operators within each other in the text"},
       {"list length", syntax::max_list_length, "entries of a list"},
@@ -18,6 +21,14 @@ std::span<const Limit> limits() {
       {"block depth", max_block_depth, "blocks within blocks, through all calls of templates"},
       {"repetitions", max_repetitions,
        "rounds of loops, calls of templates and placements in a scene, in all"},
+      {"placed things", max_repetitions, "objects, and volumes in them, counted each time they are placed"},
+      {"placed lights", static_cast<std::int64_t>(max_placed_lights),
+       "lights in objects, counted each time they are placed"},
+      {"string length", eval::max_string_bytes, "bytes of a string"},
+      {"list depth", eval::max_list_depth, "lists within each other"},
+      {"light samples", scene::light_samples_range.most, "`light_samples`, as of `--light-samples`"},
+      {"pictures", max_picture_bytes, "bytes that all pictures of a scene take, decoded (1 GB)"},
+      {"curve points", max_curve_points, "points of all strands of one `curves`"},
       {"call depth", eval::max_call_depth, "functions that call each other"},
       {"evaluation depth", eval::max_expression_depth, "operations within each other, through all calls"},
       {"function rounds", eval::max_loop_iterations, "rounds of one `for` in a function"},

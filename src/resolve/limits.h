@@ -2,6 +2,7 @@
 // machine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -13,6 +14,9 @@ inline constexpr int max_include_depth = 64;
 inline constexpr int max_block_depth = 500;  // blocks within blocks within calls: bounds the stack
 inline constexpr long max_repetitions = 10'000'000;
 inline constexpr std::uintmax_t max_file_bytes = std::uintmax_t{256} << 20;
+
+inline constexpr double max_placed_lights = 1'000'000;  // each stands in the scene by itself
+inline constexpr std::size_t max_curve_points = 10'000'000;
 
 struct Limit {
   std::string_view name;  // as the manual has it

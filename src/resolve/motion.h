@@ -13,8 +13,14 @@ struct Run;
 // error that it has then.
 using SceneAt = std::optional<scene::Scene> (*)(Run& first, double fraction);
 
-// Reads the run's scene again at moments while the shutter is open, and keeps with it what moves. Two
-// moments will do for what goes evenly; of other motions there are 33.
+// Moments at which a scene is read, at most; of large scenes fewer, so that all their things are not read and
+// kept more than so many times.
+inline constexpr int max_moments = 16384, least_max_moments = 64;
+inline constexpr std::size_t max_moments_of_things = std::size_t{1} << 22;
+
+// Reads the run's scene again at moments while the shutter is open, and keeps with it what moves. Two moments
+// will do for what goes evenly or turns evenly, less than half round; other ways get as many as they need
+// (motion_error.h).
 void find_motion(Run& run, SceneAt scene_at);
 
 }  // namespace tyndall::resolve

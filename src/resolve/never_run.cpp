@@ -8,6 +8,7 @@
 #include "base/overloaded.h"
 #include "resolve/run.h"
 #include "shader/compile_body.h"
+#include "syntax/foreign_words.h"
 
 namespace tyndall::resolve {
 
@@ -70,10 +71,15 @@ class BlockCheck {
       if (!parameter) continue;
       const std::string_view name = run_.symbols.text(parameter->name.symbol);
       if (std::find(known.begin(), known.end(), name) == known.end())
-        run_.diagnostics.error(parameter->name.span, no_parameter(name, keyword), did_you_mean(name, known));
+        run_.diagnostics.error(parameter->name.span, no_parameter(name, keyword), way_out(name, known));
       if (const auto* value = std::get_if<syntax::ThingExpr>(&tree_[parameter->value].node))
         thing_as_value(*value, name);
     }
+  }
+
+  static std::string way_out(std::string_view name, const std::vector<std::string_view>& known) {
+    const syntax::ForeignWord* row = syntax::find_foreign_parameter(name, known);
+    return row ? std::string(row->help) : did_you_mean(name, known);
   }
 
   // A shape that a volume fills, or an unnamed body.

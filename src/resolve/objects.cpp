@@ -8,36 +8,13 @@ namespace tyndall::resolve {
 
 namespace {
 
-// Tells whether any variable around an object was read while its body was run: then the body must be run
+// How often variables around an object were read: when that grows while its body is run, the body must be run
 // again for each placement.
-class VariableReads {
- public:
-  explicit VariableReads(const eval::Scope* scope) {
-    for (; scope; scope = scope->parent.get())
-      for (const eval::Binding& binding : scope->bindings)
-        if (binding.kind == eval::BindingKind::variable)
-          variables_.push_back({scope, binding.symbol, binding.used});
-    for (const Variable& v : variables_) v.scope->find_here(v.symbol)->used = false;
-  }
-  // Also puts the marks for unused names back.
-  bool any() const {
-    bool read = false;
-    for (const Variable& v : variables_) {
-      const eval::Binding& binding = *v.scope->find_here(v.symbol);
-      read |= binding.used;
-      binding.used |= v.used;
-    }
-    return read;
-  }
-
- private:
-  struct Variable {
-    const eval::Scope* scope;
-    syntax::SymbolId symbol;
-    bool used;
-  };
-  std::vector<Variable> variables_;
-};
+std::uint64_t variable_reads(const eval::Scope* scope) {
+  std::uint64_t reads = 0;
+  for (; scope; scope = scope->parent.get()) reads += scope->variable_reads;
+  return reads;
+}
 
 // Runs the object's body in its own space.
 BuiltObject built(Run& run, const Site& site, const eval::ObjectDefinition& object) {
@@ -47,7 +24,7 @@ BuiltObject built(Run& run, const Site& site, const eval::ObjectDefinition& obje
   inside.tree = object.tree;
   inside.scope = std::make_shared<eval::Scope>();
   inside.scope->parent = object.scope;
-  std::vector<std::string> included;
+  std::unordered_set<std::string> included;
   inside.included = &included;
   inside.world_from_local = {};
   inside.material = {};
@@ -68,13 +45,13 @@ std::optional<KnownObject> prototype_of(Run& run, const Site& site, const eval::
   const Nested nested(run, span);
   if (!nested.entered()) return std::nullopt;
   const auto& object = *value.get<eval::ObjectDefinition>();
-  const VariableReads reads(object.scope.get());
+  const std::uint64_t reads = variable_reads(object.scope.get());
   BuiltObject made = built(run, site, object);
-  const bool changes = reads.any() || made.sets_variable;
+  const bool changes = variable_reads(object.scope.get()) > reads || made.sets_variable;
   // What an inner object sets outside this one is set by each placement of this one.
   if (run.building && made.sets_variable) run.building->sets_variable = true;
   KnownObject result{value, scene::PrototypeId(run.scene.prototypes.size()), std::move(made.lights),
-                     made.inherits_material};
+                     made.inherits_material, made.placed + static_cast<double>(made.things.volumes.size())};
   run.scene.prototypes.push_back(std::move(made.things));
   if (!changes) run.objects.emplace(value.heavy.get(), result);
   return result;
@@ -83,7 +60,7 @@ std::optional<KnownObject> prototype_of(Run& run, const Site& site, const eval::
 void place_object(Run& run, const Site& site, const eval::Value& value, const Transform& world_from_object,
                   scene::MaterialId material, Span span) {
   const auto object = prototype_of(run, site, value, span);
-  if (!object) return;
+  if (!object || !run.may_place(*object, span)) return;
   if (!material.valid() && object->inherits_material) {
     if (run.building)
       run.building->inherits_material = true;
@@ -99,6 +76,25 @@ void place_object(Run& run, const Site& site, const eval::Value& value, const Tr
 
 }  // namespace
 
+bool Run::may_place(const KnownObject& object, Span span) {
+  if (stopped) return false;  // within the object: told already
+  double& things = building ? building->placed : placed;
+  double& lights = building ? building->placed_lights : placed_lights;
+  things += 1 + object.holds;
+  lights += static_cast<double>(object.lights.size());
+  const auto most_things = static_cast<double>(options.max_repetitions);
+  const bool too_many_lights = lights > max_placed_lights;
+  if (things <= most_things && !too_many_lights) return true;
+  diagnostics.error(
+      span,
+      fmt::format("more than {} {} placed by objects", too_many_lights ? max_placed_lights : most_things,
+                  too_many_lights ? "lights" : "things"),
+      fmt::format("this one makes them {:.15g}: objects within objects multiply",
+                  too_many_lights ? lights : things));
+  stopped = true;
+  return false;
+}
+
 void run_place(Run& run, const Site& site, const syntax::PlaceItem& place) {
   const std::string_view name = run.symbols.text(place.name.symbol);
   const eval::Binding* binding = site.scope->find(place.name.symbol);
@@ -113,12 +109,14 @@ void run_place(Run& run, const Site& site, const syntax::PlaceItem& place) {
       return run.diagnostics.error(
           place.name.span,
           fmt::format("'{}' is {}, not an object", name, eval::describe(binding->value.type)),
-          "an object is `object name { … }`", {{binding->definition, "defined here"}});
+          binding->value.type == eval::Type::function ? fmt::format("a template is called: {}(…)", name)
+                                                      : std::string("an object is `object name { … }`"),
+          {{binding->definition, "defined here"}});
     return report_undefined(run, place.name.symbol, place.name.span, fmt::format("no object '{}'", name),
                             did_you_mean(name, objects));
   }
-  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, place.block, PlaceParameters::keyword,
-                place.name.span);
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, place.block,
+                PlaceParameters::keyword, place.name.span);
   const auto given = reader.read<PlaceParameters>();
   reader.finish("an object has no parameters of its own; a template has");
   if (!reader.ok() || !run.may_repeat(1, place.name.span)) return;

@@ -34,11 +34,11 @@ struct RenderParameters {
   static void fields(F&& field) {
     using P = RenderParameters;
     field(&P::resolution, FieldInfo{"resolution", "the picture's (width, height) in pixels, 1 to 16384"});
-    field(&P::samples, FieldInfo{"samples", "paths through each pixel, >= 1"});
+    field(&P::samples, FieldInfo{"samples", "paths through each pixel, 1 to 1073741824"});
     field(&P::step,
           FieldInfo{"step", "length of a march's segments, > 0 [m], or `auto(tolerance)`", Quantity::length});
-    field(&P::light_samples, FieldInfo{"light_samples", "light points for each path segment, >= 1"});
-    field(&P::bounces, FieldInfo{"bounces", "scatterings and reflections at most, >= 0"});
+    field(&P::light_samples, FieldInfo{"light_samples", "light points for each path segment, 1 to 65536"});
+    field(&P::bounces, FieldInfo{"bounces", "scatterings and reflections at most, 0 to 1073741824"});
     field(&P::seed, FieldInfo{"seed", "of the random numbers, a whole number >= 0"});
     field(&P::multiple_scattering,
           FieldInfo{"multiple_scattering", "of light in media: `full`, or `approximate(…)`, which see"});
@@ -54,7 +54,9 @@ struct AnimationParameters {
   static void fields(F&& field) {
     using P = AnimationParameters;
     field(&P::fps, FieldInfo{"fps", "frames a second, > 0", Quantity::plain, required});
-    field(&P::frames, FieldInfo{"frames", "the first and the last frame: 1..48", Quantity::plain, required});
+    field(&P::frames,
+          FieldInfo{"frames", "the first and the last frame: 1..48; whole numbers from -1e9 to 1e9",
+                    Quantity::plain, required});
     field(&P::shutter,
           FieldInfo{"shutter", "how long the shutter is open, 0deg to 360deg (a frame)", Quantity::angle});
   }

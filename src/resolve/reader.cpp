@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/overloaded.h"
+#include "resolve/limits.h"
 
 namespace tyndall::resolve {
 
@@ -74,13 +75,6 @@ std::string no_parameter(std::string_view name, std::string_view keyword) {
   return fmt::format("no parameter '{}' in '{}'", name, keyword);
 }
 
-// The name of what an item calls; none if it calls nothing.
-static const syntax::NameExpr* name_of_call(const syntax::SyntaxTree& tree, const syntax::Item& item) {
-  const auto* call_item = std::get_if<syntax::CallItem>(&item.node);
-  const auto* call = call_item ? std::get_if<syntax::CallExpr>(&tree[call_item->call].node) : nullptr;
-  return call ? std::get_if<syntax::NameExpr>(&tree[call->callee].node) : nullptr;
-}
-
 Reader::Reader(eval::Evaluator& evaluator, const Schemas& schemas, ReaderSite site, syntax::BlockId block,
                std::string_view keyword, Span header, Others others)
     : evaluator_(evaluator),
@@ -98,8 +92,9 @@ Reader::Reader(eval::Evaluator& evaluator, const Schemas& schemas, ReaderSite si
     if (const auto* parameter = std::get_if<syntax::ParameterItem>(&item.node)) {
       if (const Given* earlier = find(parameter->name.symbol)) {
         ok_ = false;
-        diagnostics_.error(parameter->name.span,
-                           fmt::format("'{}' is given twice", symbols_.text(parameter->name.symbol)), {},
+        const std::string_view name = symbols_.text(parameter->name.symbol);
+        diagnostics_.error(parameter->name.span, fmt::format("'{}' is given twice", name),
+                           name == "transform" ? "join them with '*', of which the last applies first" : "",
                            {{earlier->item->name.span, "first given here"}});
       } else {
         given_.push_back({parameter, false});
@@ -111,13 +106,9 @@ Reader::Reader(eval::Evaluator& evaluator, const Schemas& schemas, ReaderSite si
       meant_.push_back(assign->name.symbol);
     } else if (others == Others::allowed) {
       continue;
-    } else if (const syntax::NameExpr* called = name_of_call(tree, item)) {
-      error(item.span, fmt::format("a parameter of '{}' is given with ':'", keyword_),
-            fmt::format("write `{}: …`", symbols_.text(called->symbol)));
-      meant_.push_back(called->symbol);
     } else {
-      error(item.span, fmt::format("'{}' holds parameters only", keyword_),
-            "statements stand beside it, or in a `group { … }`");
+      ok_ = false;
+      others_.push_back(&item);
     }
   }
 }
@@ -158,21 +149,28 @@ void Reader::report_one_of(const std::vector<std::string_view>& names) {
                      {{first, "the other is given here"}});
 }
 
-void Reader::report_unknown(const Given& given, std::string_view hint) {
+void Reader::report_unknown(const Given& given, std::string_view hint, Reader* outer) {
+  // Many more of them would be looked for in vain.
+  if (diagnostics_.full())
+    return error(given.item->name.span, no_parameter(symbols_.text(given.item->name.symbol), keyword_));
   // Those that are missing first, then those not given yet.
-  std::vector<std::string_view> candidates, known;
+  std::vector<std::string_view> candidates;
+  const std::vector<std::string_view> known = known_names();
   for (const Missing& missing : missing_)
     candidates.insert(candidates.end(), missing.names.begin(), missing.names.end());
-  for (std::size_t i = 0; i < known_count_; ++i) known_[i](known);
   const auto is_given = [&](std::string_view name) { return find(symbols_.intern(name)) != nullptr; };
   std::copy_if(known.begin(), known.end(), std::back_inserter(candidates), std::not_fn(is_given));
   std::copy_if(known.begin(), known.end(), std::back_inserter(candidates), is_given);
   const std::string_view name = symbols_.text(given.item->name.symbol);
-  const std::string_view meant = nearest(name, candidates);
+  std::string help = help_for_output(name);
+  if (!help.empty() && std::exchange(outputs_told_, true)) return void(ok_ = false);
+  if (help.empty()) help = help_elsewhere(name, outer);
+  const std::string_view meant = help.empty() ? nearest(name, candidates) : std::string_view{};
   std::erase_if(missing_, [&](const Missing& missing) {
     return std::find(missing.names.begin(), missing.names.end(), meant) != missing.names.end();
   });
-  std::string help = did_you_mean(name, candidates);
+  if (!meant.empty()) help = fmt::format("did you mean '{}'?", meant);
+  if (help.empty()) help = help_of_others(name);
   if (help.empty()) help = hint;
   if (help.empty() && !known.empty()) help = fmt::format("it has: {}", fmt::join(known, ", "));
   error(given.item->name.span, no_parameter(name, keyword_), std::move(help));
@@ -181,9 +179,10 @@ void Reader::report_unknown(const Given& given, std::string_view hint) {
     evaluator_.check_names(*site_.tree, given.item->value, *site_.scope);
 }
 
-void Reader::finish(std::string_view hint) {
+void Reader::finish(std::string_view hint, Reader* outer) {
+  for (const syntax::Item* item : others_) report_other(*item);
   for (const Given& given : given_)
-    if (!given.taken) report_unknown(given, hint);
+    if (!given.taken) report_unknown(given, hint, outer);
   std::erase_if(missing_, [&](const Missing& missing) {
     return std::any_of(meant_.begin(), meant_.end(), [&](syntax::SymbolId name) {
       return std::find(missing.names.begin(), missing.names.end(), symbols_.text(name)) !=
@@ -268,7 +267,7 @@ void Reader::to_color(const FieldInfo& info, const eval::Value& value, Span span
     ok_ = false;
   } else if (value.type != eval::Type::number && value.type != eval::Type::vec) {
     error(span, fmt::format("'{}' wants {}, found {}", info.name, wanted_type, eval::describe(value.type)),
-          "a number is that much in each of red, green and blue");
+          eval::help_for_color(value));
   } else if (!fits(info.quantity, value.unit)) {
     error_unit(info, value, span);
   } else {
@@ -279,16 +278,6 @@ void Reader::to_color(const FieldInfo& info, const eval::Value& value, Span span
 void Reader::read_value(const FieldInfo& info, const Given& given, Rgb& to) {
   to_color(info, evaluator_.evaluate(*site_.tree, given.item->value, *site_.scope), value_span(given),
            "a number or a colour", to);
-}
-
-void Reader::read_value(const FieldInfo& info, const Given& given, optics::SkyRadiance& to) {
-  const eval::Value value = evaluator_.evaluate(*site_.tree, given.item->value, *site_.scope);
-  const auto* image = value.get<eval::Image>();
-  if (!image) return to_color(info, value, value_span(given), "a number, a colour or an image", to.color);
-  const std::vector<PlanePointer> planes = evaluator_.context().images->planes(*image);
-  ok_ &= !planes.empty();
-  for (std::size_t c = 0; c < 3 && !planes.empty(); ++c) to.picture[c] = planes[planes.size() == 3 ? c : 0];
-  to.color = Rgb(image->factor);
 }
 
 void Reader::read_value(const FieldInfo& info, const Given& given, Pair<int>& to) {
@@ -348,6 +337,7 @@ void Reader::read_value(const FieldInfo& info, const Given& given, StrandPoints&
   if (list.is_error()) return;
   const bool many = !list.as_list().empty() && list.as_list().front().type == eval::Type::list;
   if (!many) to.strands.emplace_back();
+  std::size_t points = 0;
   for (const eval::Value& value : list.as_list()) {
     if (!many) {
       const eval::Value point = element(eval::Type::vec, info, given, value);
@@ -357,6 +347,10 @@ void Reader::read_value(const FieldInfo& info, const Given& given, StrandPoints&
     }
     const eval::Value strand = element(eval::Type::list, info, given, value);
     if (strand.is_error()) return;
+    points += strand.as_list().size();
+    if (points > max_curve_points)
+      return error(value_span(given), fmt::format("more than {} points of curves", max_curve_points),
+                   "give them to several `curves`");
     to.strands.emplace_back();
     for (const eval::Value& inner : strand.as_list()) {
       const eval::Value point = element(eval::Type::vec, info, given, inner);

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -49,10 +50,12 @@ using Schemas =
 // As in messages: "a length".
 std::string_view unit_name(syntax::Unit unit);
 
-// The text a block belongs to and the names in force where its values stand.
+// The text a block belongs to, the names in force where its values stand, and the table that tells where a
+// parameter belongs that is given in the wrong block.
 struct ReaderSite {
   const syntax::SyntaxTree* tree = nullptr;
   const std::shared_ptr<eval::Scope>* scope = nullptr;
+  const Statements* statements = nullptr;
 };
 
 // The message for a parameter that a thing does not have.
@@ -76,8 +79,9 @@ class Reader {
   T read_valid();
 
   // Reports what nothing took, and what is missing: a name that resembles a missing one is taken for it, and
-  // reported alone. `hint` is shown when no name resembles it.
-  void finish(std::string_view hint = {});
+  // reported alone. `hint` is shown when no name resembles it. `outer` reads the block around, which may be
+  // meant.
+  void finish(std::string_view hint = {}, Reader* outer = nullptr);
   // Shows problems at their parameters (at the header when the parameter was not given).
   void report(const scene::Problems& problems);
 
@@ -93,9 +97,15 @@ class Reader {
     bool taken;
   };
   Given* find(syntax::SymbolId name) {
-    for (Given& given : given_)
-      if (given.item->name.symbol == name) return &given;
-    return nullptr;
+    constexpr std::size_t few = 16;  // are looked through faster than a table is asked
+    if (given_.size() <= few) {
+      for (Given& given : given_)
+        if (given.item->name.symbol == name) return &given;
+      return nullptr;
+    }
+    for (std::size_t i = places_.size(); i < given_.size(); ++i) places_[given_[i].item->name.symbol] = i;
+    const auto found = places_.find(name);
+    return found == places_.end() ? nullptr : &given_[found->second];
   }
   Span value_span(const Given& given) const { return (*site_.tree)[given.item->value].span; }
   eval::Value evaluate(eval::Type type, const FieldInfo& info, const Given& given);
@@ -148,7 +158,15 @@ class Reader {
   void report_missing(const Missing& missing);
   // More than one of a group was given.
   void report_one_of(const std::vector<std::string_view>& names);
-  void report_unknown(const Given& given, std::string_view hint);
+  void report_unknown(const Given& given, std::string_view hint, Reader* outer);
+  // reader_strays.cpp: what stands in the wrong block.
+  void report_other(const syntax::Item& item);
+  bool report_call(const syntax::Item& item, const syntax::NameExpr& called);
+  std::string help_elsewhere(std::string_view name, Reader* outer);
+  std::string help_for_output(std::string_view name);
+  std::string help_of_others(std::string_view name) const;
+  bool has(std::string_view parameter) const;
+  std::vector<std::string_view> known_names() const;
 
   eval::Evaluator& evaluator_;
   const Schemas& schemas_;
@@ -157,9 +175,12 @@ class Reader {
   ReaderSite site_;
   std::string_view keyword_;
   Span header_;
-  std::vector<Given> given_;
-  std::vector<syntax::SymbolId>
-      meant_;                         // names given in a wrong way, which has been told: they are not missing
+  std::vector<Given> given_;                                  // each name once
+  std::unordered_map<syntax::SymbolId, std::size_t> places_;  // in it, when there are many
+  std::vector<const syntax::Item*> others_;                   // what is no parameter
+  // Names given in a wrong way, which has been told: they are not missing.
+  std::vector<syntax::SymbolId> meant_;
+  bool transforms_told_ = false, outputs_told_ = false;  // several of them are one mistake
   std::array<ListNames, 3> known_{};  // of the structs read so far: candidates for "did you mean"
   std::size_t known_count_ = 0;
   std::vector<Missing> missing_;

@@ -47,7 +47,7 @@ void settle_time(Run& run) {
 
 void run_main_file(Run& run) {
   run.file_scope = std::make_shared<eval::Scope>();
-  std::vector<std::string> included;
+  std::unordered_set<std::string> included;
   run.includes.open.push_back(main_file_key(run));
   run_block(run, Site{run.main, run.file_scope, &included}, run.main->file);
   run.includes.open.pop_back();
@@ -56,7 +56,12 @@ void run_main_file(Run& run) {
 std::optional<scene::Scene> scene_at(Run& first, double fraction) {
   Diagnostics diagnostics;
   Run run(*first.main, first.sources, first.symbols, first.options, diagnostics, &first.structure);
-  read_overrides(run);
+  // Text and pictures are read once.
+  run.overrides = first.overrides;
+  run.includes.trees = first.includes.trees;
+  for (const auto& [key, tree] : run.includes.trees)
+    if (tree) note_unread(run, *tree);
+  run.images.share(first.images);
   run.foreseen = first.foreseen;
   run.scene.frame = first.scene.frame;
   run.context.frame = first.scene.frame;

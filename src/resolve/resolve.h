@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,10 @@ struct Options {
   std::optional<int> frame;                                    // default: the first of `animation`
   std::vector<std::pair<std::string, std::string>> overrides;  // --set NAME=EXPR
   std::vector<std::string> include_directories;
+  bool allow_outside = false;  // files that are neither in the main file's folder nor in one of those
   shader::Options shader;
   bool may_only_define = false;  // a file of nothing but definitions, for other scenes, is good
+  std::set<std::string>* files_read = nullptr;      // gets the paths of includes and pictures
   long max_repetitions = resolve::max_repetitions;  // tests and fuzzers take fewer
 };
 

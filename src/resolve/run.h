@@ -28,7 +28,7 @@ namespace tyndall::resolve {
 struct Site {
   const syntax::SyntaxTree* tree = nullptr;
   std::shared_ptr<eval::Scope> scope;
-  std::vector<std::string>* included = nullptr;  // files brought into this scope
+  std::unordered_set<std::string>* included = nullptr;  // files brought into this scope
   Transform world_from_local{};
   scene::MaterialId material{};  // of groups and places around; invalid: none
   bool visible = true;
@@ -45,8 +45,15 @@ struct Override {
 
 // Files brought in by `include`.
 struct Includes {
-  std::map<std::string, std::unique_ptr<syntax::SyntaxTree>> trees;  // by canonical path; null: unreadable
-  std::vector<std::string> open;                                     // being run, outermost first
+  std::map<std::string, std::shared_ptr<const syntax::SyntaxTree>>
+      trees;                      // by canonical path; null: unreadable
+  std::vector<std::string> open;  // being run, outermost first
+};
+
+// What is known of the files that a scene names (find_file).
+struct Files {
+  std::vector<std::filesystem::path> folders;                    // where they may lie, links followed
+  std::unordered_map<std::string, std::filesystem::path> found;  // by naming folder and name
 };
 
 // A light in the space of the object that holds it, as read, and how it gets there.
@@ -62,8 +69,10 @@ struct ObjectLight {
 struct BuiltObject {
   scene::Prototype things;
   std::vector<ObjectLight> lights;
-  bool inherits_material = false;      // something in it names no material
-  bool sets_variable = false;          // a variable from outside, so each placement must run the body again
+  bool inherits_material = false;  // something in it names no material
+  bool sets_variable = false;      // a variable from outside, so each placement must run the body again
+  double placed = 0;               // objects in it, and volumes in those: what Run::may_place counts
+  double placed_lights = 0;
   const eval::Scope* scope = nullptr;  // of its body, while it is run
 };
 
@@ -73,6 +82,7 @@ struct KnownObject {
   scene::PrototypeId prototype;
   std::vector<ObjectLight> lights;
   bool inherits_material = false;
+  double holds = 0;  // objects and volumes, those of the objects in it counted each time
 };
 
 // What decides how many things there are, as it was when the shutter opened: branches of `if`, ranges and
@@ -107,6 +117,7 @@ struct Run {
   Diagnostics& diagnostics;
   const syntax::SyntaxTree* main;
   Includes includes;  // before the context: values of the run point into the trees
+  Files files;
   std::vector<Override> overrides;
   Images images;
   eval::Context context;
@@ -129,8 +140,9 @@ struct Run {
 
   int template_depth = 0, block_depth = 0;
   long repetitions = 0;
-  bool stopped = false;          // a limit was met: nothing more is run
-  std::vector<bool> blocks_run;  // of the main file, by number: met once at least
+  double placed = 0, placed_lights = 0;  // objects and volumes in them, and lights, each time
+  bool stopped = false;                  // a limit was met: nothing more is run
+  std::vector<bool> blocks_run;          // of the main file, by number: met once at least
 
   std::vector<scene::ShapeInstance>& shapes() { return building ? building->things.shapes : scene.shapes; }
   std::vector<scene::Volume>& volumes() { return building ? building->things.volumes : scene.volumes; }
@@ -140,6 +152,9 @@ struct Run {
 
   // Counts rounds of a loop or calls; false, after an error at `span`, when they are too many.
   bool may_repeat(double rounds, Span span);
+  // Counts what an object that is placed brings with it, before any of it is written out; false, after an
+  // error at `span`, when the scene or the object being built would hold too much.
+  bool may_place(const KnownObject& object, Span span);
   bool finished() const { return stopped || diagnostics.full(); }
 };
 
@@ -170,9 +185,14 @@ void run_include(Run& run, const Site& site, const syntax::IncludeItem& include)
 // Remembers what could not be read of a file.
 void note_unread(Run& run, const syntax::SyntaxTree& tree);
 
-// A file that another one names: beside it, or in an include directory; nothing when it is in none.
-std::optional<std::filesystem::path> find_file(const Run& run, const std::string& naming,
-                                               const std::string& name);
+// One name for a file however it is spelt, without links.
+std::filesystem::path canonical_path(const std::filesystem::path& path);
+
+// The file that the text at `span` names: beside the file of that text, or in an include directory. Nothing
+// after an error: there is no such `noun` ("file", "picture"), or it lies outside of the folders of the scene
+// and of --include, links followed, and that is not allowed.
+std::optional<std::filesystem::path> find_file(Run& run, std::string_view noun, const std::string& name,
+                                               Span span);
 
 // The name of the main file among the included ones.
 std::string main_file_key(const Run& run);
@@ -188,7 +208,7 @@ struct PlacedShape {
   Transform outer_from_shape;
 };
 enum class Inside : bool { any, needed };  // whether open shapes will do
-std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside inside);
+std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside inside, Reader& outer);
 
 // Adds a light to the scene or the object being built; an error when its shape does not survive the map to
 // the world.

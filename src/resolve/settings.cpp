@@ -51,7 +51,8 @@ void move(scene::SphericalCamera& camera, const Transform& world_from_local, dou
 
 void run_render(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
   if (!first_of_its_kind(run, site, run.render, header(thing), row.name)) return;
-  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, thing.block, row.name,
+                header(thing));
   const auto given = reader.read<RenderParameters>();
   reader.finish();
   const scene::RenderSettings settings{given.resolution.x, given.resolution.y,       given.samples,
@@ -65,19 +66,27 @@ void run_animation(Run& run, const Site& site, const syntax::ThingItem& thing, c
   if (site.scope != run.file_scope || site.tree != run.main)
     return run.diagnostics.error(header(thing), "'animation' stands at the top level of the main file only");
   if (!first_of_its_kind(run, site, run.animation, header(thing), row.name)) return;
-  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, thing.block, row.name,
+                header(thing));
   const scene::Animation animation = read_animation(reader);
   if (!reader.ok()) return;
   if (!run.foreseen || !same(animation, *run.foreseen))
     return run.diagnostics.error(header(thing), "'animation' depends on `time`, `frame` or an included file",
                                  "it decides what they are: use numbers, and the lets above it in this file");
   run.scene.animation = animation;
+  if (const std::optional<int>& frame = run.options.frame;
+      frame && (*frame < animation.first_frame || *frame > animation.last_frame))
+    run.diagnostics.warning(reader.place("frames"),
+                            fmt::format("--frame {} is outside of these frames, {} to {}", *frame,
+                                        animation.first_frame, animation.last_frame),
+                            "what moves is taken beyond them as it is written");
 }
 
 template <class Camera>
 void run_camera(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
   if (!first_of_its_kind(run, site, run.camera, header(thing), "camera")) return;
-  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, thing.block, row.name,
+                header(thing));
   Camera camera = reader.read_valid<Camera>();
   const auto placement = reader.read<Placement>();
   reader.finish();

@@ -29,7 +29,7 @@ void warn_if_open(Run& run, const scene::Mesh& mesh, const syntax::ThingExpr& th
 
 }  // namespace
 
-std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside inside) {
+std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside inside, Reader& outer) {
   if (in.value.is_error()) return std::nullopt;
   const auto* literal = in.value.get<eval::ShapeLiteral>();
   CHECK(literal);
@@ -51,11 +51,11 @@ std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside in
   }
   const auto scope = std::make_shared<eval::Scope>();
   scope->parent = literal->scope;
-  Reader reader(run.evaluator, run.schemas, {literal->tree, &scope}, thing.block, word, thing.keyword.span);
+  Reader reader(run.evaluator, run.schemas, {literal->tree, &scope, &run.statements}, thing.block, word,
+                thing.keyword.span);
   const scene::Shape shape = row->read_shape(run, reader);
   const auto placement = reader.read<Placement>();
-  reader.finish(inside == Inside::needed ? "'visible' and the like are parameters of the volume"
-                                         : "'visible' and the like are parameters of the light");
+  reader.finish({}, &outer);
   if (!reader.ok()) return std::nullopt;
   if (const auto* mesh = std::get_if<scene::Mesh>(&shape); mesh && inside == Inside::needed)
     warn_if_open(run, *mesh, thing);
@@ -81,7 +81,8 @@ std::optional<Transform> placed(Reader& reader, const Site& site, const Transfor
 }
 
 void run_shape(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
-  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, thing.block, row.name,
+                header(thing));
   const scene::Shape shape = row.read_shape(run, reader);
   const auto placement = reader.read<ShapePlacement>();
   reader.finish();
@@ -103,13 +104,14 @@ void run_shape(Run& run, const Site& site, const syntax::ThingItem& thing, const
 }
 
 void run_volume(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
-  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing));
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, thing.block, row.name,
+                header(thing));
   const auto given = reader.read<VolumeParameters>();
-  reader.finish();
   if (given.step && !given.step->automatic() && !(given.step->metres > 0))
     reader.error(reader.place("step"), fmt::format("'step' must be above 0, found {}", given.step->metres));
   std::optional<PlacedShape> in;
-  if (given.in.given()) in = read_shape_value(run, given.in, Inside::needed);
+  if (given.in.given()) in = read_shape_value(run, given.in, Inside::needed, reader);
+  reader.finish();
   scene::MediumId medium;
   if (given.medium.given()) medium = medium_of(run, given.medium);
   scene::MaterialId material;
@@ -134,8 +136,8 @@ void run_volume(Run& run, const Site& site, const syntax::ThingItem& thing, cons
 }
 
 void run_group(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
-  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope}, thing.block, row.name, header(thing),
-                Reader::Others::allowed);
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, thing.block, row.name,
+                header(thing), Reader::Others::allowed);
   const auto given = reader.read<GroupParameters>();
   reader.finish();
   // What is in it is read even when its own parameters are wrong: for its errors.

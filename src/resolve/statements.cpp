@@ -103,8 +103,8 @@ std::string help_for(Run& run, const Site& site, const syntax::ThingItem& thing)
     if (binding->value.type == eval::Type::function)
       return fmt::format("a template is called: `{}(…)`", word);
   }
-  if (const std::string_view help = syntax::help_for_foreign_word(word); !help.empty())
-    return std::string(help);
+  const std::string_view foreign = syntax::help_for_foreign_word(syntax::ForeignUse::statement, word);
+  if (!foreign.empty()) return std::string(foreign);
   std::vector<std::string_view> words;
   for (const Statement& row : run.statements.rows()) words.push_back(row.name.substr(0, row.name.find(' ')));
   for (const eval::Scope* scope = site.scope.get(); scope; scope = scope->parent.get())
@@ -125,7 +125,9 @@ void report_unknown_statement(Run& run, const Site& site, const syntax::ThingIte
       return run.diagnostics.error(thing.keyword.span, fmt::format("'{}' needs a kind", word),
                                    fmt::format("one of: {}", list));
     const std::string_view kind = run.symbols.text(thing.kind.symbol);
-    std::string help = did_you_mean(kind, kinds);
+    std::string help(syntax::help_for_foreign_word(
+        word == "light" ? syntax::ForeignUse::light : syntax::ForeignUse::camera, kind));
+    if (help.empty()) help = did_you_mean(kind, kinds);
     if (help.empty()) help = fmt::format("one of: {}", list);
     return run.diagnostics.error(thing.kind.span, fmt::format("no kind of '{}' called '{}'", word, kind),
                                  std::move(help));

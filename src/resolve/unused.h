@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include "eval/scope.h"
 #include "syntax/tree.h"
@@ -25,8 +27,16 @@ struct PassedOver {
     syntax::SymbolId variable;   // of the loop that it is
   };
   std::unordered_map<std::uint32_t, Place> blocks;
-  std::unordered_set<std::uint32_t> names;  // in the first `read` blocks met
-  std::size_t read = 0;
+
+  // A name where it is used.
+  struct Use {
+    std::uint32_t begin;
+    syntax::SymbolId symbol;
+  };
+  std::vector<Use> uses;                        // all of the main file; empty until they are needed
+  std::vector<std::uint32_t> unread;            // blocks whose names are not among `names` yet
+  std::map<std::uint32_t, std::uint32_t> read;  // beginnings and ends of the others
+  std::unordered_set<syntax::SymbolId> names;
 };
 
 // Notes a block that is not run now: a branch not taken, a template's body before its first call.

@@ -227,7 +227,9 @@ void warn_of_volumes_out_of_view(Run& run) {
     Seen& seen = statements[{volume.definition.source.index, volume.definition.begin}];
     seen.definition = volume.definition;
     const std::optional<Bounds> box = seen.perhaps ? std::nullopt : bounds(s, volume.shape);
-    seen.perhaps = !volume.visible || !box || !outside(*box, volume.world_from_shape, spaces);
+    // What gives light shows itself on other things.
+    const bool shines = s.media[volume.medium.index].emission.has_value();
+    seen.perhaps = !volume.visible || shines || !box || !outside(*box, volume.world_from_shape, spaces);
   }
   for (const auto& [place, seen] : statements)
     if (!seen.perhaps)

@@ -15,6 +15,9 @@
 
 namespace tyndall::scene {
 
+// Bodies give no more than this; larger numbers are taken for infinite, and count as it.
+inline constexpr float largest_coefficient = 1e30f;
+
 // Indices into a program's outputs, for red, green and blue. Grey quantities name the same output three
 // times.
 using RgbOutputs = std::array<std::uint8_t, 3>;
@@ -37,6 +40,28 @@ struct Watched {
   std::vector<std::string> names{};      // of all that could be looked at
 };
 
+// A number of a body as it came out of it, for reports: what of it lies out of its range is limited, and
+// told. In media it is shown beside the outputs that are made of it.
+struct GivenNumber {
+  std::string name;  // as messages name it: "albedo", "g of hg"
+  Span span;         // the statement
+  double lowest = 0, highest = 0;
+  std::uint8_t output = 0;                          // of `full`
+  std::optional<std::uint8_t> extinction_output{};  // of `extinction`, where that is made of it
+  bool scales = false;                              // a coefficient, or one's factor
+};
+
+// The places at which a body asks for fields of a lattice (noise and its like), by a program of their own.
+struct LatticePlaces {
+  struct Field {
+    std::string name;  // "fbm"
+    Span span;
+    std::size_t first = 0, count = 0;  // outputs
+  };
+  vm::Program program;
+  std::vector<Field> fields;
+};
+
 // Coefficients are per metre of world space, density already multiplied in.
 struct Medium {
   std::string name;
@@ -52,6 +77,8 @@ struct Medium {
 
   std::optional<Watched> watched{};  // when asked for
 
+  std::vector<GivenNumber> given;
+  LatticePlaces lattice_places;
   // Source places of the `density`, `albedo`, … statements, for reports on bad values: one per output of
   // `full`.
   std::vector<Span> output_spans;

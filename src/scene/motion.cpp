@@ -1,7 +1,7 @@
 #include "scene/motion.h"
 
 #include <array>
-#include <optional>
+#include <cmath>
 #include <type_traits>
 
 #include "base/check.h"
@@ -15,7 +15,8 @@ namespace {
 // No thing has more: a volume has a shape and two transforms.
 constexpr std::size_t max_moving_numbers = 64;
 
-// Calls visit(double or float) for every number of a thing that may move.
+// Calls visit(double or float) for every number of a thing that may move; visit.transform(transform), if
+// there is that, for whole transforms instead.
 template <class F>
 class Numbers {
  public:
@@ -28,6 +29,8 @@ class Numbers {
   void of(Vec3<T>& v) {
     for (std::size_t k = 0; k < 3; ++k) visit_(v[k]);
   }
+  void of(Transform& t) requires requires(F& f) { f.transform(t); }
+  { visit_.transform(t); }
   void of(Transform& t) {
     for (Vec3d* column : {&t.x, &t.y, &t.z, &t.t}) of(*column);
   }
@@ -79,16 +82,26 @@ void visit_numbers(T& thing, F&& visit) {
   Numbers<std::remove_reference_t<F>>(visit).of(thing);
 }
 
-}  // namespace
+struct PlainNumbers {
+  std::vector<MovingNumber> list{};
+  void operator()(double& x) { list.push_back({x, 0}); }
+  void operator()(float& x) { list.push_back({x, std::abs(double{x}) * 0x1p-22}); }
+  void transform(const Transform&) {}
+};
 
-template <class T>
-std::vector<double> moving_numbers(const T& thing) {
-  std::vector<double> numbers;
-  T copy = thing;
-  visit_numbers(copy, [&](auto& x) { numbers.push_back(x); });
-  return numbers;
+template <class Visit>
+struct Transforms {
+  Visit visit;
+  void operator()(const double&) {}
+  void transform(Transform& t) { visit(t); }
+};
+
+template <class T, class Visit>
+void visit_transforms(T& thing, Visit visit) {
+  visit_numbers(thing, Transforms<Visit>{visit});
 }
 
+// Part way from a to b, 0 to 1, every number straight. Both must be things of one kind with the same parts.
 template <class T>
 T between(const T& a, const T& b, double part) {
   if (part <= 0) return a;
@@ -103,16 +116,137 @@ T between(const T& a, const T& b, double part) {
   return result;
 }
 
-template std::vector<double> moving_numbers(const ShapeInstance&);
-template std::vector<double> moving_numbers(const Instance&);
-template std::vector<double> moving_numbers(const Volume&);
-template std::vector<double> moving_numbers(const LightInstance&);
-template std::vector<double> moving_numbers(const Camera&);
-template ShapeInstance between(const ShapeInstance&, const ShapeInstance&, double);
-template Instance between(const Instance&, const Instance&, double);
-template Volume between(const Volume&, const Volume&, double);
-template LightInstance between(const LightInstance&, const LightInstance&, double);
-template Camera between(const Camera&, const Camera&, double);
+// Gives a transform whose numbers went straight from key k to the next the linear part that it has on its
+// turn, about the pivot that went straight.
+void turn(Transform& straight, const Turning& turning, std::size_t k, double part) {
+  const auto &a = turning.poses[k], &b = turning.poses[k + 1];
+  if (!a || !b) return;
+  const std::optional<Transform> turned = mix(*a, *b, part);
+  if (!turned) return;
+  const Vec3d pivot = straight.point(turning.pivot);
+  straight = *turned;
+  straight.t = pivot - turned->vector(turning.pivot);
+}
+
+double size_of(const Transform& linear) {
+  return std::sqrt(length_squared(linear.x) + length_squared(linear.y) + length_squared(linear.z));
+}
+
+// How far a turn from key k to the next, in so many equal pieces, takes a point at distance 1 from the pivot
+// off the straight line between the ends of a piece: an eighth of the largest second derivative.
+double bend_of(const Turning& turning, std::size_t k, int pieces) {
+  const auto &a = turning.poses[k], &b = turning.poses[k + 1];
+  if (!a || !b) return 0;
+  const double angle = angle_between(a->rotation, b->rotation) / pieces;
+  const Transform change{
+      b->stretch.x - a->stretch.x, b->stretch.y - a->stretch.y, b->stretch.z - a->stretch.z, {}};
+  const double size = std::max(size_of(a->stretch), size_of(b->stretch));
+  return (angle * angle * size + 2 * angle * size_of(change) / pieces) / 8;
+}
+
+// So that no piece turns further.
+int pieces_of(const std::vector<Turning>& turnings, std::size_t k) {
+  constexpr double most = pi / 12;
+  double angle = 0;
+  for (const Turning& t : turnings)
+    if (t.poses[k] && t.poses[k + 1])
+      angle = std::max(angle, angle_between(t.poses[k]->rotation, t.poses[k + 1]->rotation));
+  return std::max(1, static_cast<int>(std::ceil(angle / most)));
+}
+
+}  // namespace
+
+template <class T>
+std::vector<double> moving_numbers(const T& thing) {
+  std::vector<double> numbers;
+  T copy = thing;
+  visit_numbers(copy, [&](auto& x) { numbers.push_back(x); });
+  return numbers;
+}
+
+template <class T>
+std::vector<MovingNumber> plain_numbers(const T& thing) {
+  PlainNumbers numbers;
+  T copy = thing;
+  visit_numbers(copy, numbers);
+  return numbers.list;
+}
+
+template <class T>
+std::vector<Transform> transforms_of(const T& thing) {
+  std::vector<Transform> transforms;
+  T copy = thing;
+  visit_transforms(copy, [&](const Transform& t) { transforms.push_back(t); });
+  return transforms;
+}
+
+template <class T>
+void set_turnings(Moving<T>& moving, const std::vector<Vec3d>& pivots) {
+  std::vector<Turning> turnings(pivots.size());
+  bool any = false;
+  for (std::size_t i = 0; i < pivots.size(); ++i) turnings[i].pivot = pivots[i];
+  for (const T& key : moving.keys) {
+    const std::vector<Transform> now = transforms_of(key), first = transforms_of(moving.keys.front());
+    for (std::size_t i = 0; i < pivots.size(); ++i) {
+      turnings[i].poses.push_back(pose_of(now[i]));
+      any |= now[i].x != first[i].x || now[i].y != first[i].y || now[i].z != first[i].z;
+    }
+  }
+  if (any) moving.turnings = std::move(turnings);
+}
+
+template <class T>
+T at(const Moving<T>& moving, double fraction) {
+  const std::vector<double>& times = moving.times;
+  const auto after = std::upper_bound(times.begin() + 1, times.end() - 1, fraction);
+  const auto k = static_cast<std::size_t>(after - times.begin()) - 1;
+  const double part = (fraction - times[k]) / (times[k + 1] - times[k]);
+  T now = between(moving.keys[k], moving.keys[k + 1], part);
+  if (moving.turnings.empty() || part <= 0 || part >= 1) return now;
+  auto turning = moving.turnings.begin();
+  visit_transforms(now, [&](Transform& t) { turn(t, *turning++, k, part); });
+  return now;
+}
+
+template <class T>
+std::vector<double> moments(const Moving<T>& moving, double lo, double hi) {
+  std::vector<double> out{lo};
+  for (std::size_t k = 0; k + 1 < moving.times.size(); ++k) {
+    const int pieces = pieces_of(moving.turnings, k);
+    const double from = moving.times[k], step = (moving.times[k + 1] - from) / pieces;
+    for (int i = 0; i < pieces; ++i) {
+      const double moment = from + i * step;
+      if (lo < moment && moment < hi) out.push_back(moment);
+    }
+  }
+  out.push_back(hi);
+  return out;
+}
+
+template <class T>
+double bend(const Moving<T>& moving, std::size_t transform) {
+  if (moving.turnings.empty()) return 0;
+  double most = 0;
+  for (std::size_t k = 0; k + 1 < moving.times.size(); ++k)
+    most = std::max(most, bend_of(moving.turnings[transform], k, pieces_of(moving.turnings, k)));
+  return most;
+}
+
+// For each kind of thing that moves.
+#define TYNDALL_MOVES(T)                                                  \
+  template std::vector<double> moving_numbers(const T&);                  \
+  template std::vector<MovingNumber> plain_numbers(const T&);             \
+  template std::vector<Transform> transforms_of(const T&);                \
+  template void set_turnings(Moving<T>&, const std::vector<Vec3d>&);      \
+  template T at(const Moving<T>&, double);                                \
+  template std::vector<double> moments(const Moving<T>&, double, double); \
+  template double bend(const Moving<T>&, std::size_t);
+TYNDALL_MOVES(ShapeInstance)
+TYNDALL_MOVES(Instance)
+TYNDALL_MOVES(Volume)
+TYNDALL_MOVES(LightInstance)
+TYNDALL_MOVES(Camera)
+#undef TYNDALL_MOVES
 
 double shutter_seconds(const Animation& animation) {
   return animation.shutter.radians / (2 * pi * animation.fps);

@@ -38,7 +38,7 @@ MaterialId add_diffuse(Scene& scene, const Rgb& base_color, const Rgb& emission)
   material.name = "diffuse";
   material.base_color = add_constant_outputs(material.program, base_color);
   if (!is_black(emission)) material.emission = add_constant_outputs(material.program, emission);
-  material.output_spans.resize(material.program.outputs.size());
+  material.given.resize(material.program.outputs.size());
   scene.materials.push_back(std::move(material));
   return MaterialId(scene.materials.size() - 1);
 }
@@ -59,7 +59,7 @@ MaterialId add_surface(Scene& scene, const ConstantSurface& surface) {
     m.ior = add(surface.ior);
   }
   if (surface.opacity < 1) m.opacity = add(surface.opacity);
-  m.output_spans.resize(m.program.outputs.size());
+  m.given.resize(m.program.outputs.size());
   scene.materials.push_back(std::move(m));
   return MaterialId(scene.materials.size() - 1);
 }
@@ -71,7 +71,7 @@ MediumId add_constant_medium(Scene& scene, const ConstantMedium& given) {
   medium.sigma_t = add_constant_outputs(medium.full, given.sigma_t);
   if (!is_black(given.emission)) medium.emission = add_constant_outputs(medium.full, given.emission);
   medium.extinction_sigma_t = add_constant_outputs(medium.extinction, given.sigma_t);
-  medium.output_spans.resize(medium.full.outputs.size());
+  medium.given.resize(medium.full.outputs.size());
   if (!is_black(given.sigma_s)) {
     medium.phase = given.phase;
     if (medium.phase.empty()) medium.phase.push_back(PhaseLobe{});

@@ -197,8 +197,12 @@ void print_things(Printer& p, const Things& things) {
 }
 
 template <class T>
-void print_keys(Printer& p, const std::vector<T>& keys) {
-  for (const T& key : keys) p.item("key", moving_numbers(key));
+void print_keys(Printer& p, const Moving<T>& moving) {
+  for (std::size_t i = 0; i < moving.keys.size(); ++i) {
+    p.item("at", moving.times[i]);
+    p.item("key", moving_numbers(moving.keys[i]));
+  }
+  for (const Turning& turning : moving.turnings) p.item("pivot", turning.pivot);
 }
 
 // The numbers of what moves, moment by moment.
@@ -208,7 +212,7 @@ void print_moving(Printer& p, std::string_view what, const std::vector<Moving<T>
     p.put_text("moving ");
     p.count(what, moving.index);
     p.line("");
-    print_keys(p, moving.keys);
+    print_keys(p, moving);
   }
 }
 

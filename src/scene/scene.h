@@ -232,7 +232,8 @@ struct Material {
   std::optional<std::uint8_t> opacity;  // in [0, 1]
   std::optional<RgbOutputs> sheen;      // in [0, 1]
   std::optional<RgbOutputs> normal;     // shading normal in object space, of any length
-  std::vector<Span> output_spans;       // one per output, for reports on bad values
+  std::vector<GivenNumber> given;       // one per output, for reports on bad values
+  LatticePlaces lattice_places;
 
   // Lambert's law alone.
   bool matte() const { return !metallic && !specular && !transmission && !coat && !sheen; }
@@ -299,7 +300,7 @@ struct Prototype {
 
 // What moves of a scene beside its prototypes' things, each in order of index.
 struct Motion {
-  std::vector<Camera> camera;  // empty: it stands still
+  Moving<Camera> camera;  // empty: it stands still
   std::vector<Moving<ShapeInstance>> shapes;
   std::vector<Moving<Instance>> instances;
   std::vector<Moving<Volume>> volumes;  // of all_volumes

@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 
 #include "base/numerics.h"
+#include "scene/ranges.h"
 
 namespace tyndall::scene {
 
 namespace {
-
-// The largest side of a picture [pixels]: the film's memory stays addressable.
-constexpr int max_resolution = 16384;
 
 constexpr int max_scattering_orders = 64;
 
@@ -29,6 +27,12 @@ void want_not_negative(Problems& problems, std::string_view field, double value)
 void want_at_least(Problems& problems, std::string_view field, int value, int least) {
   if (value < least)
     problems.push_back({field, fmt::format("'{}' must be at least {}, found {}", field, least, value)});
+}
+
+void want_within(Problems& problems, std::string_view field, int value, const WholeRange& range) {
+  if (!range.holds(value))
+    problems.push_back(
+        {field, fmt::format("'{}' must be from {} to {}, found {}", field, range.least, range.most, value)});
 }
 
 void want_share(Problems& problems, std::string_view field, double value) {
@@ -78,14 +82,14 @@ void want_view(Problems& problems, const Vec3d& from, const Vec3d& to, const Vec
 
 Problems validate(const RenderSettings& s) {
   Problems problems;
-  if (s.width < 1 || s.height < 1 || s.width > max_resolution || s.height > max_resolution)
+  if (!resolution_range.holds(s.width) || !resolution_range.holds(s.height))
     problems.push_back(
-        {"resolution", fmt::format("'resolution' must be from 1 to {} on each side, found ({}, {})",
-                                   max_resolution, s.width, s.height)});
-  want_at_least(problems, "samples", s.samples, 1);
+        {"resolution", fmt::format("'resolution' must be from {} to {} on each side, found ({}, {})",
+                                   resolution_range.least, resolution_range.most, s.width, s.height)});
+  want_within(problems, "samples", s.samples, samples_range);
   if (!s.step.automatic()) want_positive(problems, "step", s.step.metres);
-  want_at_least(problems, "light_samples", s.light_samples, 1);
-  want_at_least(problems, "bounces", s.bounces, 0);
+  want_within(problems, "light_samples", s.light_samples, light_samples_range);
+  want_within(problems, "bounces", s.bounces, bounces_range);
   return problems;
 }
 

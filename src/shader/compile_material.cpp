@@ -1,6 +1,8 @@
 // A material's body to its program: the outputs that make a surface, those left out that are not used.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/numerics.h"
 #include "eval/operators.h"
 #include "shader/compile_body.h"
@@ -40,7 +42,7 @@ constexpr OutputRule rules[] = {
     {"transmission", Type::number, false, 0, 1, "in [0, 1]",
      "the part that is glass: closed shapes refract, disks, quads and planes are thin panes", "0"},
     {"ior", Type::number, false, 1, 1e3, "from 1 to 1000",
-     "index of refraction inside; one number for the whole surface", "1.5"},
+     "index of refraction inside; one number for the whole surface, as it is when the shutter opens", "1.5"},
     {"coat", Type::number, false, 0, 1, "in [0, 1]", "strength of a nearly polished clear lacquer over all",
      "0"},
     {"sheen", Type::vec, true, 0, 1, "in [0, 1]", "colour of fine fibres, seen at grazing angles", "0"},
@@ -60,7 +62,7 @@ using Outputs = std::vector<std::optional<Output>>;
 class MaterialCompiler {
  public:
   MaterialCompiler(eval::Evaluator& ev, const eval::Body& body, const Outputs& outputs)
-      : body_(body), outputs_(outputs), list_(ev) {}
+      : body_(body), outputs_(outputs), list_(ev, OutputList::Sharing::same_statement) {}
 
   scene::Material indices() {
     scene::Material m;
@@ -86,12 +88,22 @@ class MaterialCompiler {
       m.roughness = number(roughness, 0);
       m.ior = number(ior, -1);
     }
-    m.output_spans = list_.spans;
+    m.given = given();
     return m;
   }
   const OutputList& list() const { return list_; }
 
  private:
+  // The rule of the statement that each output came from; none for what stands in where nothing is set.
+  std::vector<scene::GivenNumber> given() const {
+    std::vector<scene::GivenNumber> out(list_.spans.size());
+    for (std::size_t i = 0; i < std::size(rules); ++i)
+      for (std::size_t k = 0; outputs_[i] && k < out.size(); ++k)
+        if (list_.spans[k] == outputs_[i]->span)
+          out[k] = {std::string(rules[i].name), outputs_[i]->span, rules[i].lowest,
+                    i == normal ? infinity : std::min(rules[i].highest, double{scene::largest_coefficient})};
+    return out;
+  }
   scene::RgbOutputs color(Index which) {
     return list_.indices(outputs_[which]->value.scalars, outputs_[which]->span);
   }
@@ -136,6 +148,7 @@ std::optional<scene::Material> compile_material(eval::Context& context, const ev
     return std::nullopt;
   }
   material.program = *program;
+  material.lattice_places = lattice_places_of(builder, compiler.list().nodes);
   if (material.ior && !material.program.uniform(material.program.outputs[*material.ior])) {
     ev.error(outputs[ior]->span, "'ior' must be one number for the whole surface",
              "it may depend on parameters and on time, not on the place; vary 'specular' instead");

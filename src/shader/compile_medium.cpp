@@ -1,10 +1,13 @@
 // A medium's body to its two programs: language.md "Medium".
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/check.h"
 #include "base/numerics.h"
 #include "eval/operators.h"
 #include "shader/compile_body.h"
+#include "shader/limits.h"
 #include "shader/outputs.h"
 
 namespace tyndall::shader {
@@ -60,8 +63,19 @@ bool combine(eval::Evaluator& ev, const eval::Body& body, const Outputs& outputs
 
 class MediumCompiler {
  public:
-  MediumCompiler(eval::Evaluator& ev, const eval::Body& body, const Outputs& outputs)
-      : ev_(ev), body_(body), outputs_(outputs), list_(ev) {}
+  MediumCompiler(eval::Evaluator& ev, const eval::Body& body, const Outputs& given)
+      : ev_(ev), body_(body), outputs_(given), limits_(ev), list_(ev) {
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+      if (i == phase || !outputs_[i]) continue;
+      const NumberRange range{std::string(rules[i].name),
+                              outputs_[i]->span,
+                              rules[i].lowest,
+                              std::min(rules[i].highest, double{scene::largest_coefficient}),
+                              i != albedo,
+                              i != albedo && i != emission};
+      for (Scalar& s : outputs_[i]->value.scalars) s = limits_.limited(s, range);
+    }
+  }
 
   std::optional<scene::Medium> compile() {
     scene::Medium medium;
@@ -75,6 +89,7 @@ class MediumCompiler {
     if (scatters) medium.phase = lobes();
     OutputList extinction_list(ev_);
     medium.extinction_sigma_t = extinction_list.indices(c.sigma_t, c.sigma_t_span);
+    medium.given = limits_.given(list_, extinction_list);
     medium.output_spans = list_.spans;
     const auto full = ev_.builder()->finish(list_.nodes);
     const auto only_extinction = ev_.builder()->finish(extinction_list.nodes);
@@ -85,6 +100,7 @@ class MediumCompiler {
     }
     medium.full = *full;
     medium.extinction = *only_extinction;
+    medium.lattice_places = lattice_places_of(*ev_.builder(), list_.nodes);
     return medium;
   }
 
@@ -141,6 +157,12 @@ class MediumCompiler {
     return optics::PhaseKind::isotropic;
   }
 
+  // What a lobe's number is called and where it belongs.
+  NumberRange range_of(optics::PhaseKind kind, std::size_t parameter, Span span) const {
+    const optics::PhaseParameter& p = optics::parameters(kind)[parameter];
+    return {fmt::format("{} of {}", p.name, optics::keyword(kind)), span, p.lowest, p.highest};
+  }
+
   scene::PhaseLobe::Number number(const Scalar& s, Span span) {
     if (s.known()) return {static_cast<float>(s.value), std::nullopt};
     return {0, list_.index(s, span)};
@@ -153,16 +175,23 @@ class MediumCompiler {
     const Output& output = *outputs_[phase];
     const auto* mixture = output.value.get<std::vector<eval::PhaseLobe>>();
     CHECK(mixture != nullptr);
-    for (const eval::PhaseLobe& lobe : *mixture)
-      result.push_back({kind(lobe.kind),
-                        {number(lobe.parameters[0], output.span), number(lobe.parameters[1], output.span)},
-                        number(lobe.weight, output.span)});
+    for (const eval::PhaseLobe& lobe : *mixture) {
+      scene::PhaseLobe compiled{kind(lobe.kind), {}, number(lobe.weight, output.span)};
+      for (std::size_t k = 0; k < optics::parameters(compiled.kind).size(); ++k)
+        compiled.parameters[k] =
+            number(limits_.limited(lobe.parameters[k], range_of(compiled.kind, k, output.span), lobe.weight),
+                   output.span);
+      for (const Scalar& share : lobe.shares)
+        limits_.show(share, {"w of mix", output.span, 0, 1}, lobe.weight);
+      result.push_back(compiled);
+    }
     return result;
   }
 
   eval::Evaluator& ev_;
   const eval::Body& body_;
-  const Outputs& outputs_;
+  Outputs outputs_;  // limited
+  Limits limits_;
   OutputList list_;
 };
 

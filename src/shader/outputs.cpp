@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/check.h"
@@ -11,6 +12,24 @@
 namespace tyndall::shader {
 
 using eval::Value;
+
+// What the renderer takes for infinite.
+constexpr double largest = scene::largest_coefficient;
+
+// The way out of a share that is too large: colours that count to 255, percents without their sign.
+static std::string help_for_share(const OutputRule& rule, const Value& value) {
+  if (rule.lowest != 0 || rule.highest != 1 || !value.known()) return {};
+  std::array<double, 3> parts{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(value.width()); ++i) {
+    parts[i] = value.scalars[i].value;
+    if (parts[i] < 0 || parts[i] > 255) return {};
+  }
+  if (value.type == eval::Type::vec)
+    return fmt::format(
+        "a colour that counts to 255 is written #{:02x}{:02x}{:02x}, and (r, g, b) counts to 1",
+        std::lround(parts[0]), std::lround(parts[1]), std::lround(parts[2]));
+  return parts[0] <= 100 ? fmt::format("{0} percent is written {0}%", eval::text_of(value)) : std::string{};
+}
 
 // Reports a known number that the rule does not allow.
 static bool in_range(eval::Evaluator& evaluator, const OutputRule& rule, const Value& value, Span span) {
@@ -22,10 +41,15 @@ static bool in_range(eval::Evaluator& evaluator, const OutputRule& rule, const V
                       "look for a division by zero");
       return false;
     }
-    if (s.value >= rule.lowest && s.value <= rule.highest) continue;
+    if (s.value >= rule.lowest && s.value <= rule.highest && std::abs(s.value) <= largest) continue;
+    if (s.value > largest) {
+      evaluator.error(span, fmt::format("'{}' must be at most {}, found {}", rule.name, largest, s.value));
+      return false;
+    }
     evaluator.error(
         span, fmt::format("'{}' must be {}, found {}", rule.name, rule.range,
-                          value.known() ? eval::text_of(value) : eval::text_of(Value::number(s.value))));
+                          value.known() ? eval::text_of(value) : eval::text_of(Value::number(s.value))),
+                    help_for_share(rule, value));
     return false;
   }
   return true;
@@ -114,10 +138,27 @@ std::vector<std::optional<Output>> run_body(eval::Evaluator& evaluator, const ev
   return outputs;
 }
 
+scene::LatticePlaces lattice_places_of(const vm::Builder& builder, std::span<const vm::NodeId> outputs) {
+  scene::LatticePlaces out;
+  std::vector<vm::NodeId> nodes;
+  for (const vm::Builder::LatticeField& field : builder.lattice_fields(outputs)) {
+    const std::string_view op = vm::op_info(field.op).name;
+    out.fields.push_back(
+        {std::string(op.substr(0, op.find_first_of("34"))), field.span, nodes.size(), field.place.size()});
+    nodes.insert(nodes.end(), field.place.begin(), field.place.end());
+  }
+  if (nodes.empty()) return {};
+  const auto program = builder.finish(nodes);
+  if (!program) return {};
+  out.program = *program;
+  return out;
+}
+
 std::uint8_t OutputList::index(const eval::Scalar& scalar, Span span) {
   const vm::NodeId node = evaluator_.node(scalar);
-  const auto found = std::find(nodes.begin(), nodes.end(), node);
-  if (found != nodes.end()) return static_cast<std::uint8_t>(found - nodes.begin());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i] == node && (sharing_ == Sharing::any || spans[i] == span))
+      return static_cast<std::uint8_t>(i);
   nodes.push_back(node);
   spans.push_back(span);
   return static_cast<std::uint8_t>(nodes.size() - 1);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "eval/evaluator.h"
+#include "scene/medium.h"
 
 namespace tyndall::shader {
 
@@ -40,10 +41,15 @@ std::vector<std::optional<Output>> run_body(eval::Evaluator& evaluator, const ev
                                             const std::shared_ptr<eval::Scope>& scope,
                                             std::span<const OutputRule> rules, bool& failed);
 
-// Outputs of a program under construction: equal nodes share one.
+// Where what `outputs` are made of asks for fields of a lattice.
+scene::LatticePlaces lattice_places_of(const vm::Builder& builder, std::span<const vm::NodeId> outputs);
+
+// Outputs of a program under construction: equal nodes share one, of the same statement or of any.
 class OutputList {
  public:
-  explicit OutputList(eval::Evaluator& evaluator) : evaluator_(evaluator) {}
+  enum class Sharing : std::uint8_t { any, same_statement };
+  explicit OutputList(eval::Evaluator& evaluator, Sharing sharing = Sharing::any)
+      : evaluator_(evaluator), sharing_(sharing) {}
 
   // The index of the scalar's output, added when it is new; `span` is the statement it came from.
   std::uint8_t index(const eval::Scalar& scalar, Span span);
@@ -56,6 +62,7 @@ class OutputList {
 
  private:
   eval::Evaluator& evaluator_;
+  Sharing sharing_;
 };
 
 }  // namespace tyndall::shader

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "base/line_ends.h"
 #include "syntax/format_lines.h"
 #include "syntax/format_marks.h"
 
@@ -33,6 +34,7 @@ class Formatter {
         branches_flat_(marks_.size()) {}
 
   std::string run() {
+    if (text_.starts_with(byte_order_mark)) counted_ = byte_order_mark.size();
     for (std::uint32_t i = 0; kind(i) != end_of_file; i = last_of_unit(i) + 1) {
       if (marks_[i].dropped) continue;
       token(i);

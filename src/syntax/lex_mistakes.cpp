@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "syntax/lexer.h"
 
@@ -107,6 +108,10 @@ void Lexer::hash() {
       {"define", TokenKind::error, "write let name = value or def name(x) = value"},
       {"macro", TokenKind::kw_def, "write def name(parameters) { … }"},
       {"include", TokenKind::kw_include, "write include \"file.tyn\""},
+      {"version", TokenKind::error, "leave it out"},
+      {"debug", TokenKind::error, "nothing is printed: `tyndall inspect` shows what a scene became"},
+      {"ifdef", TokenKind::error, "write if condition { … } else { … }"},
+      {"ifndef", TokenKind::error, "write if condition { … } else { … }"},
       {"if", TokenKind::kw_if, "write if condition { … } else { … }"},
       {"for", TokenKind::kw_for, "write for i in 0..<10 { … }"},
       {"while", TokenKind::error, "write for i in 0..<10 { … }"},
@@ -118,6 +123,7 @@ void Lexer::hash() {
     diagnostics_.error(span_from(begin), fmt::format("'#{}' is not of this language", digits),
                        std::string(directive.help));
     emit(directive.meant, begin);
+    after_directive_ = directive.meant == TokenKind::kw_let || directive.meant == TokenKind::kw_include;
     return;
   }
   if (digits.empty()) {  // most likely a comment
@@ -150,7 +156,10 @@ void Lexer::mistaken_character() {
   if (c == '\'') return single_quotes();
   if (static_cast<unsigned char>(c) >= 0x80) return foreign_character();
   ++at_;
-  if (c == ';') return count(semicolons_, begin);
+  if (c == ';') {
+    if (!std::exchange(after_directive_, false)) count(semicolons_, begin);
+    return;
+  }
   if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
     while (!at_end() && static_cast<unsigned char>(peek()) < 0x20 && peek() != '\n' && peek() != '\t') ++at_;
     count(control_characters_, begin);

@@ -1,11 +1,13 @@
 // Numbers and their units.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 
+#include "syntax/foreign_words.h"
 #include "syntax/lexer.h"
 
 namespace tyndall::syntax {
@@ -53,7 +55,16 @@ struct Decimal {
   }
 };
 
-std::string unit_help(std::string_view suffix) {
+std::string unit_help(std::string_view digits, std::string_view suffix) {
+  const auto is_hex = [](char c) {
+    return std::string_view("0123456789abcdefABCDEF").find(c) != std::string_view::npos;
+  };
+  if (digits == "0" && suffix.size() > 1 && suffix[0] == 'x' &&
+      std::all_of(suffix.begin() + 1, suffix.end(), is_hex))
+    return suffix.size() == 7 ? fmt::format("a colour is written #{}", suffix.substr(1))
+                              : "numbers are decimal";
+  if (const std::string_view help = help_for_foreign_word(ForeignUse::unit, suffix); !help.empty())
+    return std::string(help);
   std::vector<std::string_view> names;
   for (const UnitRow& row : unit_table) names.push_back(row.name);
   if (const std::string_view near = nearest(suffix, names); !near.empty() && suffix.size() > 1)
@@ -61,7 +72,19 @@ std::string unit_help(std::string_view suffix) {
   return fmt::format("the units are {}; a product is written with '*'", fmt::join(names, " "));
 }
 
+const UnitRow* find_unit(std::string_view name) {
+  const auto* row = std::find_if(std::begin(unit_table), std::end(unit_table),
+                                 [&](const UnitRow& r) { return r.name == name; });
+  return row == std::end(unit_table) ? nullptr : row;
+}
+
 }  // namespace
+
+Unit with_unit(std::string_view name, double& value) {
+  const UnitRow* row = find_unit(name);
+  if (row != nullptr) value = value * row->factor / row->divisor;
+  return row != nullptr ? row->unit : Unit::none;
+}
 
 void Lexer::number() {
   const std::uint32_t begin = at_;
@@ -98,13 +121,11 @@ void Lexer::number() {
   const std::string_view suffix = text_.substr(unit_begin, at_ - unit_begin);
   Unit unit = Unit::none;
   if (!suffix.empty()) {
-    const UnitRow* found = nullptr;
-    for (const UnitRow& row : unit_table)
-      if (row.name == suffix) found = &row;
+    const UnitRow* found = find_unit(suffix);
     if (found == nullptr) {
       const std::string_view shown = suffix.substr(0, 40);
       diagnostics_.error({source_, unit_begin, at_}, fmt::format("'{}' is not a unit", shown),
-                         unit_help(suffix));
+                         unit_help(text_.substr(begin, unit_begin - begin), suffix));
       emit(TokenKind::error, begin);
       return;
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "base/line_ends.h"
 
 namespace tyndall::syntax {
 
@@ -46,22 +47,32 @@ constexpr bool continues_mark(char c) { return c == '=' || c == '>' || c == '-';
 
 }  // namespace
 
-TokenList lex(const Sources& sources, SourceId source, Diagnostics& diagnostics) {
-  return Lexer(sources, source, diagnostics).run();
+TokenList lex(const Sources& sources, SourceId source, Diagnostics& diagnostics, std::size_t most) {
+  return Lexer(sources, source, diagnostics, most).run();
 }
 
 TokenList Lexer::run() {
   CHECK_LT(text_.size(), std::size_t{0xffffffff});
   out_.tokens.reserve(std::min(text_.size() / 4 + 16, max_tokens_reserved));
   if (!not_text()) {
-    if (starts_with("\xef\xbb\xbf")) at_ = 3;  // a byte order mark says UTF-8, which we know
-    while (!at_end()) next_token();
+    if (starts_with(byte_order_mark)) at_ = byte_order_mark.size();
+    while (!at_end() && !too_much()) next_token();
     end_interpolations();
     report_habits();
   }
   at_ = static_cast<std::uint32_t>(text_.size());
   emit(TokenKind::end_of_file, at_);
   return std::move(out_);
+}
+
+// Whether the text can be no scene, for all that may follow: then nothing more is read.
+bool Lexer::too_much() {
+  // The parser, which tells of nesting, reads no such depth.
+  if (open_brackets_ + interpolations_.size() > most_open_brackets) return true;
+  if (out_.tokens.size() < max_tokens_) return false;
+  fail(at_, fmt::format("more than {} words and marks", max_tokens_),
+       "split the file: each of those it includes may have as many");
+  return true;
 }
 
 void Lexer::next_token() {
@@ -99,7 +110,7 @@ void Lexer::word() {
 bool Lexer::skip_comment() {
   const std::uint32_t begin = at_;
   if (starts_with("//")) {
-    while (!at_end() && peek() != '\n') ++at_;
+    while (!at_end() && peek() != '\n' && peek() != '\r') ++at_;
   } else if (starts_with("/*")) {
     block_comment();
   } else {
@@ -149,6 +160,7 @@ void Lexer::punctuation() {
   if (const TokenKind kind = plain_mark(peek()); kind != TokenKind::error && !continues_mark(peek(1))) {
     const std::uint32_t mark = at_++;
     emit(kind, mark);
+    count_bracket(kind);
     return;
   }
   struct Mark {
@@ -172,6 +184,7 @@ void Lexer::punctuation() {
     if (!starts_with(mark.text)) continue;
     at_ += static_cast<std::uint32_t>(mark.text.size());
     emit(mark.kind, begin);
+    count_bracket(mark.kind);
     return;
   }
   mistaken_character();

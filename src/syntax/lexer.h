@@ -14,14 +14,20 @@ namespace tyndall::syntax {
 // Longer names and units are refused: they are data, not words, and would flood the messages that quote them.
 inline constexpr std::size_t max_word_bytes = 256;
 
+// Far more than the parser reads (max_nesting), even where many were forgotten to be closed.
+inline constexpr std::uint32_t most_open_brackets = 10'000;
+
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool is_word_begin(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 constexpr bool is_word_part(char c) { return is_word_begin(c) || is_digit(c); }
 
+// The number in the base unit of what is named, deg or cm; `none`, and nothing done, when that is no unit.
+Unit with_unit(std::string_view name, double& value);
+
 class Lexer {
  public:
-  Lexer(const Sources& sources, SourceId source, Diagnostics& diagnostics)
-      : source_(source), text_(sources[source].text()), diagnostics_(diagnostics) {}
+  Lexer(const Sources& sources, SourceId source, Diagnostics& diagnostics, std::size_t most)
+      : source_(source), text_(sources[source].text()), diagnostics_(diagnostics), max_tokens_(most) {}
 
   TokenList run();
 
@@ -33,6 +39,7 @@ class Lexer {
   };
 
   // lexer.cpp
+  bool too_much();
   void next_token();
   void word();
   bool skip_comment();
@@ -75,6 +82,13 @@ class Lexer {
     diagnostics_.error(span_from(begin), std::move(message), std::move(help));
     emit(TokenKind::error, begin);
   }
+  void count_bracket(TokenKind kind) {
+    if (kind == TokenKind::left_paren || kind == TokenKind::left_bracket || kind == TokenKind::left_brace)
+      ++open_brackets_;
+    else if (kind == TokenKind::right_paren || kind == TokenKind::right_bracket ||
+             kind == TokenKind::right_brace)
+      open_brackets_ -= open_brackets_ > 0;
+  }
   void count(Habit& habit, std::uint32_t begin) {
     if (habit.count++ == 0) habit.first = span_from(begin);
   }
@@ -82,6 +96,8 @@ class Lexer {
   SourceId source_;
   std::string_view text_;
   Diagnostics& diagnostics_;
+  std::size_t max_tokens_;
+  std::uint32_t open_brackets_ = 0;
   std::uint32_t at_ = 0;  // the offset of the next character
   TokenList out_;
   // Open interpolations, innermost last: the place of each `{` and the braces opened inside it.
@@ -90,6 +106,7 @@ class Lexer {
   };
   std::vector<Interpolation> interpolations_;
   std::uint32_t bad_escape_in_ = 0xffffffffu;  // begin of the last string with an unknown escape
+  bool after_directive_ = false;  // of POV-Ray, told already: the `;` that ends it is not told, too
   Habit semicolons_, undecodable_, control_characters_, odd_spaces_;
 };
 

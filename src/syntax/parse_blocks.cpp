@@ -51,6 +51,7 @@ ParsedExpression Parser::only_expression() {
 
 // block = "{" { item } "}"
 BlockId Parser::block(BlockPlace place, std::string_view owner) {
+  if (at(TokenKind::colon) && !panic_) return indented_block(place, owner);
   const std::uint32_t first = at_;
   const std::uint32_t outer_tallest = std::exchange(tallest_, 0);
   std::vector<ItemId> list;
@@ -105,17 +106,22 @@ void Parser::items(std::vector<ItemId>& out, const std::optional<Span>& open) {
       return;
     }
     if (at(TokenKind::end_of_file) || (open && ends_everything())) break;
-    const std::uint32_t first = at_;
-    const std::optional<ItemId> id = item();
-    if (id)
-      out.push_back(*id);
-    else
-      note_unread_definition(first);
-    if (panic_) synchronize(first);
-    if (at_ == first) take();  // never stand still
-    after_item(id);
+    read_item(out);
   }
   if (open) never_closed(*open);
+}
+
+void Parser::read_item(std::vector<ItemId>& out) {
+  if (source_text_[peek().span.begin] == '#' && skip_directive()) return;
+  const std::uint32_t first = at_;
+  const std::optional<ItemId> id = item();
+  if (id)
+    out.push_back(*id);
+  else
+    note_unread_definition(first);
+  if (panic_) synchronize(first);
+  if (at_ == first) take();  // never stand still
+  after_item(id);
 }
 
 // A definition that could not be read has a name all the same: its uses are no mistakes.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "syntax/foreign_words.h"
 #include "syntax/recursive_parser.h"
 
 namespace tyndall::syntax {
@@ -105,8 +104,14 @@ std::optional<Parser::ItemNode> Parser::def_item() {
     fail(peek().span, fmt::format("expected '(' after '{}', found {}", text(*name), found()),
          "a function is written def f(x) = …, a value let a = …");
   }
-  if (at(TokenKind::left_brace) || panic_)
-    return TemplateItem{*name, list, block(BlockPlace::file, fmt::format("'{}'", text(*name)))};
+  const bool python = at(TokenKind::colon) && (kind(1) == TokenKind::kw_return || first_on_line(at_ + 1));
+  if (at(TokenKind::left_brace) || python || panic_) {
+    const BlockId body = block(BlockPlace::file, fmt::format("'{}'", text(*name)));
+    if (!gives_value(body)) return TemplateItem{*name, list, body};
+    // Without '=' it is a template by the grammar; a value beside the steps tells whoever defines it.
+    const ExprId mistaken = python ? ExprId{} : add(at_, BoolExpr{false});
+    return FunctionItem{*name, list, mistaken, body};
+  }
   if (at(TokenKind::colon)) {
     note_mistake(take().span, "a function is defined with '='");
   } else if (!take_if(TokenKind::equals)) {
@@ -179,6 +184,8 @@ std::optional<Parser::ItemNode> Parser::place_item() {
   take();
   const std::optional<Name> name = new_name("the object to place");
   if (!name) return std::nullopt;
+  if (!at(TokenKind::left_brace) && !(is_word(kind()) && kind(1) == TokenKind::colon))
+    return placed_without_braces(*name);
   return PlaceItem{*name, block(BlockPlace::thing, fmt::format("'place {}'", text(*name)))};
 }
 
@@ -225,6 +232,9 @@ std::optional<Parser::ItemNode> Parser::if_item() {
   if (at(TokenKind::kw_then)) {
     note_mistake(take().span, "no 'then' in a statement", "write if condition { … } else { … }");
   }
+  if (at(TokenKind::kw_else))
+    fail(peek().span, "expected '{' after the condition of 'if', found 'else'",
+         "a choice of values is written: if a then b else c");
   const BlockId then_block = block(place_, "the condition of 'if'");
   BlockId else_block;
   if (!panic_ && take_if(TokenKind::kw_else)) {
@@ -255,6 +265,8 @@ std::optional<Parser::ItemNode> Parser::parameter_item() {
   const Span colon = take().span;
   switch (place_) {
     case BlockPlace::thing:
+      if (at(TokenKind::left_brace) && tokens_.tokens[at_ - 2].kind == TokenKind::name)
+        braces_of_no_body_ = at_;
       return ParameterItem{name, expression()};
     case BlockPlace::body:
       note_mistake(colon, fmt::format("'{}' is set with '=' here", text(name)),
@@ -293,6 +305,7 @@ std::optional<Parser::ItemNode> Parser::assign_item() {
 std::optional<Parser::ItemNode> Parser::thing_item() {
   const Name keyword = take_name();
   if (value_without_colon()) return parameter_without_colon(keyword);
+  if (!begins_thing() && statement_of_others(keyword)) return std::nullopt;
   std::string owner(text(keyword));
   const bool kind_follows = at(TokenKind::name) && kind(1) != TokenKind::colon &&
                             kind(1) != TokenKind::equals && kind(1) != TokenKind::left_paren;
@@ -315,10 +328,9 @@ std::optional<Parser::ItemNode> Parser::thing_item() {
   }
   if (!at(TokenKind::left_brace) && !file.valid() && !kind_follows &&
       !(is_word(kind()) && kind(1) == TokenKind::colon)) {
-    fail(peek().span,
+    fail(keyword.span,
          fmt::format("'{}' does nothing here: expected '{{', '(', ':' or '=' after it, found {}", owner,
-                     found()),
-         std::string(help_for_foreign_word(owner)));
+                     found()));
     return std::nullopt;
   }
   const BlockId body = block(BlockPlace::thing, fmt::format("'{}'", owner));
@@ -331,6 +343,8 @@ std::optional<Parser::ItemNode> Parser::call_item() {
   const ExprId result = postfix();
   if (panic_) return std::nullopt;
   const std::string_view name = text(tokens_.tokens[first]);
+  if (at(TokenKind::left_brace) && statement_of_others({symbols_.intern(name), tokens_.tokens[first].span}))
+    return std::nullopt;
   if (at(TokenKind::equals) || at(TokenKind::left_brace)) {
     fail(peek().span, fmt::format("expected a statement, found {}", found()),
          fmt::format("a function or template is defined with def {}(…)", name));

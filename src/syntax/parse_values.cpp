@@ -68,7 +68,8 @@ ExprId Parser::not_a_value() {
 // unnamed_body = block, as in `medium: { density = 1 }`
 ExprId Parser::unnamed_body() {
   const std::uint32_t first = at_;
-  const BlockId body = block(BlockPlace::body, "the value");
+  const BlockPlace place = first == braces_of_no_body_ ? BlockPlace::thing : BlockPlace::body;
+  const BlockId body = block(place, "the value");
   return add(first, ThingExpr{{}, {}, body}, 1 + height(body));
 }
 
@@ -76,7 +77,11 @@ ExprId Parser::unnamed_body() {
 ExprId Parser::literal() {
   const std::uint32_t first = at_;
   const Token& token = take();
-  if (token.kind == TokenKind::number) return add(first, NumberExpr{token.number, token.unit});
+  if (token.kind == TokenKind::number) {
+    double value = token.number;
+    const Unit unit = at(TokenKind::name) ? parted_unit(token, value) : token.unit;
+    return add(first, NumberExpr{value, unit});
+  }
   if (token.kind == TokenKind::color) return add(first, ColorExpr{token.text});
   return add(first, BoolExpr{token.kind == TokenKind::kw_true});
 }
@@ -111,6 +116,12 @@ ExprId Parser::name_or_thing() {
   const std::uint32_t first = at_;
   const Name name = take_name();
   const bool file_follows = at(TokenKind::string) || at(TokenKind::string_head);
+  if (at(TokenKind::less) && vector_word(name)) return angle_bracket_vector();
+  if (at(TokenKind::name) && !first_on_line(at_) && text(name) == "lambda") {
+    fail(name.span, "a function has a name here", "write def f(x) = x * 2");
+    skip_line();
+    return error_expr();
+  }
   if (brace_opens_body_ || !(at(TokenKind::left_brace) || file_follows))
     return add(first, NameExpr{name.symbol});
   ExprId file;

@@ -1,6 +1,7 @@
 // Text to tokens to tree, and the tree's printed form.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "base/diagnostics.h"
@@ -10,8 +11,13 @@
 
 namespace tyndall::syntax {
 
-// Reads the words of a source. Always ends with end_of_file; problems are reported and lexing goes on.
-TokenList lex(const Sources& sources, SourceId source, Diagnostics& diagnostics);
+// Words and marks of one source: what is made of them takes some hundred bytes each.
+inline constexpr std::size_t max_tokens = std::size_t{1} << 25;
+
+// Reads the words of a source. Always ends with end_of_file; problems are reported and lexing goes on, up to
+// `most` tokens.
+TokenList lex(const Sources& sources, SourceId source, Diagnostics& diagnostics,
+              std::size_t most = max_tokens);
 
 // Reads a token list. Always gives a tree; what could not be read is left out or an ErrorExpr.
 SyntaxTree parse(const Sources& sources, SourceId source, const TokenList& tokens, Symbols& symbols,

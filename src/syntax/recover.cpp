@@ -12,15 +12,19 @@ namespace tyndall::syntax {
 // Reports what stands at `span`, unless that is what follows an error; reading goes on at a safe place.
 void Parser::fail(const Span& span, std::string message, std::string help,
                   std::vector<Diagnostic::Note> notes) {
-  if (!panic_ && !gave_up_ && !at(TokenKind::error))
-    diagnostics_.error(span, std::move(message), std::move(help), std::move(notes));
+  if (!at(TokenKind::error)) note_mistake(span, std::move(message), std::move(help), std::move(notes));
   panic_ = true;
 }
 
 // Reports a mistake whose meaning is plain: reading goes on right here.
 void Parser::note_mistake(const Span& span, std::string message, std::string help,
                           std::vector<Diagnostic::Note> notes) {
-  if (!panic_ && !gave_up_) diagnostics_.error(span, std::move(message), std::move(help), std::move(notes));
+  if (panic_ || gave_up_) return;
+  if (const std::optional<ForeignStatement> around = foreign_statement_around())
+    diagnostics_.error(around->place, fmt::format("no statement '{}'", around->word),
+                       std::string(around->help));
+  else
+    diagnostics_.error(span, std::move(message), std::move(help), std::move(notes));
 }
 
 void Parser::too_deep(const Span& span) {

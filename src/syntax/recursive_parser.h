@@ -45,6 +45,7 @@ class Parser {
   void items(std::vector<ItemId>& out, const std::optional<Span>& open);
   BlockId add_block(std::uint32_t first_token, const std::vector<ItemId>& list, std::uint32_t outer_tallest);
   bool open_block(std::string_view owner);
+  void read_item(std::vector<ItemId>& out);
   void never_closed(const Span& open);
   void note_unread_definition(std::uint32_t first_token);
   std::size_t indentation(const Span& place) const;
@@ -78,6 +79,21 @@ class Parser {
   ItemNode parameter_without_colon(const Name& name);
   bool begins_body() const;
   std::optional<ItemNode> include_without_quotes();
+  // parse_habits.cpp: what POV-Ray and Python users write
+  bool skip_directive();
+  void skip_line();
+  bool gives_value(BlockId block) const;
+  BlockId indented_block(BlockPlace place, std::string_view owner);
+  bool statement_of_others(const Name& keyword);
+  bool begins_thing() const;
+  Unit parted_unit(const Token& number, double& value);
+  bool vector_word(const Name& name) const;
+  PlaceItem placed_without_braces(const Name& name);
+  struct ForeignStatement {
+    Span place;
+    std::string_view word, help;
+  };
+  std::optional<ForeignStatement> foreign_statement_around() const;
 
   // parse_operators.cpp
   ExprId expression();
@@ -201,6 +217,9 @@ class Parser {
   Diagnostics& diagnostics_;
   SyntaxTree tree_;
   std::uint32_t at_ = 0;
+  // The '{' of `sphere: { radius: 2 }`: only media and materials are braces alone, so that parameters are
+  // meant.
+  std::uint32_t braces_of_no_body_ = 0xffffffffu;
   // Set by the first error of an item, cleared where reading goes on: what follows an error is not reported.
   bool panic_ = false;
   bool gave_up_ = false;           // nested too deeply: the rest of the file is not read

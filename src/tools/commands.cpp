@@ -4,16 +4,21 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "tools/interrupt.h"
+#include "tools/misuse.h"
 #include "tools/report.h"
 
 namespace tyndall::tools {
 
 ExitStatus run(int argc, char** argv) {
+  clean_up_at_signals();
   CLI::App program("Tyndall renders light in fog, smoke, cloud and fire from a scene written as text.",
                    "tyndall");
   program.set_version_flag("--version", "tyndall " TYNDALL_VERSION);
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
+  // Of an option that is given again the last counts; those that are lists go on.
+  program.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
   Action action;
   add_render_command(program, action);
@@ -24,9 +29,12 @@ ExitStatus run(int argc, char** argv) {
 
   try {
     program.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    program.exit(request);  // prints the help or version that was asked for
+    return ExitStatus::done;
   } catch (const CLI::ParseError& error) {
-    // `exit` prints the help or version that was asked for (status 0), or the complaint.
-    return program.exit(error) == 0 ? ExitStatus::done : ExitStatus::misuse;
+    print_error(explain_misuse(program, error));
+    return ExitStatus::misuse;
   }
   const ExitStatus status = action();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;

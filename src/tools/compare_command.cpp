@@ -9,6 +9,7 @@
 #include "image/compare.h"
 #include "image/image.h"
 #include "tools/commands.h"
+#include "tools/numbers.h"
 #include "tools/report.h"
 
 namespace tyndall::tools {
@@ -69,9 +70,7 @@ void add_compare_command(CLI::App& program, Action& action) {
   command->add_option("--metric", arguments->metric, "What --max limits (default: relmse)")
       ->check(CLI::IsMember({"relmse"}))
       ->option_text("relmse");
-  command->add_option("--max", arguments->max, "Fail, with exit status 3, when the metric is greater")
-      ->check(CLI::NonNegativeNumber)
-      ->option_text("X");
+  add_real(*command, "--max", arguments->max, "Fail, with exit status 3, when the metric is greater");
   command->add_flag("--json", arguments->json, "Print the numbers as JSON on standard output");
   command->callback([arguments, &action] { action = [arguments] { return run_compare(*arguments); }; });
 }

@@ -2,13 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <system_error>
+#include <span>
 
 #include "base/check.h"
+#include "base/line_ends.h"
+#include "image/files.h"
 #include "syntax/format.h"
 #include "tools/commands.h"
 #include "tools/load.h"
@@ -17,31 +16,10 @@
 namespace tyndall::tools {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct FormatArguments {
   std::vector<std::string> scenes;
   bool check = false;
 };
-
-// Replaces a file's text, whole or not at all; an error message when that failed.
-std::string replace_file(const std::string& path, const std::string& text) {
-  std::error_code error;
-  const fs::path target = fs::canonical(path, error);  // a link stays a link
-  if (error) return error.message();
-  fs::path part = target;
-  part += ".part";
-  std::FILE* file = std::fopen(part.c_str(), "wbx");
-  if (file == nullptr) return std::generic_category().message(errno);
-  errno = 0;
-  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (std::fclose(file) != 0 || !written) error.assign(errno, std::generic_category());
-  if (!error) fs::permissions(part, fs::status(target).permissions(), error);
-  if (!error) fs::rename(part, target, error);
-  std::error_code ignored;
-  if (error) fs::remove(part, ignored);
-  return error ? error.message() : std::string();
-}
 
 // The tree as text: what formatting must keep.
 std::string meaning_of(const std::string& name, const std::string& text) {
@@ -52,24 +30,35 @@ std::string meaning_of(const std::string& name, const std::string& text) {
   return syntax::print(scene.tree, scene.symbols);
 }
 
+// The text with the byte order mark and the line ends that the file had; of several kinds the most frequent.
+std::string as_written_before(const std::string& formatted, const std::string& before) {
+  const std::string_view mark = before.starts_with(byte_order_mark) ? byte_order_mark : "";
+  return std::string(mark) + with_line_ends(formatted, line_ends_of(before).usual());
+}
+
 // Formats one file, or only looks whether it is formatted; true unless there is a problem.
 bool format_file(const std::string& path, bool check) {
+  if (!check && !image::appears_whole(path)) {
+    print_error(fmt::format("cannot format '{}': it is no plain file", path));
+    return false;
+  }
   SceneRequest request;
   request.path = path;
+  request.keep_text = true;
   const std::unique_ptr<LoadedScene> scene = load(request, Stage::tree);
   print_diagnostics(scene->diagnostics, scene->sources);
   if (scene->diagnostics.has_errors()) return false;
-  const std::string_view before = scene->sources[scene->source].text();
-  const std::string after = syntax::format(scene->sources, scene->source, scene->tokens, scene->tree);
-  if (after == before) return true;
+  const std::string formatted = syntax::format(scene->sources, scene->source, scene->tokens, scene->tree);
+  const std::string after = as_written_before(formatted, scene->text);
+  if (after == scene->text) return true;
   if (check) {
     print_result(fmt::format("{}: would be formatted\n", path));
     return false;
   }
   CHECK_EQ(meaning_of(path, after), syntax::print(scene->tree, scene->symbols));
-  const std::string problem = replace_file(path, after);
-  if (!problem.empty()) {
-    print_error(fmt::format("cannot write '{}': {}", path, problem));
+  if (const std::string problem = image::write_file_whole(path, std::as_bytes(std::span(after)));
+      !problem.empty()) {
+    print_error(problem);
     return false;
   }
   print_result(fmt::format("{}: formatted\n", path));

@@ -6,9 +6,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <system_error>
 
 #include "resolve/resolve.h"
+#include "tools/numbers.h"
 #include "tools/stopwatch.h"
 
 namespace tyndall::tools {
@@ -46,8 +48,7 @@ void add_override(SceneRequest& request, const std::string& text) {
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneRequest& request) {
-  command.add_option("--frame", request.frame, "The frame to read (default: the first of `animation`)")
-      ->option_text("N");
+  add_whole(command, "--frame", request.frame, "The frame to read, in place of the first of `animation`");
   command
       .add_option_function<std::vector<std::string>>(
           "--set",
@@ -62,35 +63,47 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
                   "Also look for included files here; may be repeated")
       ->allow_extra_args(false)
       ->option_text("DIR");
+  command.add_flag("--allow-outside", request.allow_outside,
+                   "Let the scene name files outside of its folder and those of --include");
+}
+
+static void read_stages(const SceneRequest& request, Stage last, LoadedScene& loaded,
+                        std::string_view& doing) {
+  Stopwatch watch;
+  std::string text;
+  const std::string problem = read_text(request.path, text);
+  if (!problem.empty()) return loaded.diagnostics.error({}, problem);
+  if (request.keep_text) loaded.text = text;
+  loaded.source = loaded.sources.add(request.path, std::move(text));
+  loaded.seconds.read = watch.lap();
+
+  loaded.tokens = syntax::lex(loaded.sources, loaded.source, loaded.diagnostics);
+  if (last == Stage::tokens) return;
+  loaded.tree =
+      syntax::parse(loaded.sources, loaded.source, loaded.tokens, loaded.symbols, loaded.diagnostics);
+  loaded.seconds.parse = watch.lap();
+  if (last == Stage::tree || loaded.diagnostics.full()) return;
+
+  doing = "build the scene of";
+  const resolve::Options options{.frame = request.frame,
+                                 .overrides = request.overrides,
+                                 .include_directories = request.include_directories,
+                                 .allow_outside = request.allow_outside,
+                                 .shader = {.watch = request.watch},
+                                 .may_only_define = request.may_only_define,
+                                 .files_read = &loaded.files_read};
+  loaded.scene = resolve::resolve(loaded.tree, loaded.sources, loaded.symbols, options, loaded.diagnostics);
+  loaded.seconds.resolve = watch.lap();
 }
 
 std::unique_ptr<LoadedScene> load(const SceneRequest& request, Stage last) {
   auto loaded = std::make_unique<LoadedScene>();
-  Stopwatch watch;
-  std::string text;
-  const std::string problem = read_text(request.path, text);
-  if (!problem.empty()) {
-    loaded->diagnostics.error({}, problem);
-    return loaded;
+  std::string_view doing = "read";
+  try {
+    read_stages(request, last, *loaded, doing);
+  } catch (const std::bad_alloc&) {
+    loaded->diagnostics.error({}, fmt::format("there is not enough memory to {} '{}'", doing, request.path));
   }
-  loaded->source = loaded->sources.add(request.path, std::move(text));
-  loaded->seconds.read = watch.lap();
-
-  loaded->tokens = syntax::lex(loaded->sources, loaded->source, loaded->diagnostics);
-  if (last == Stage::tokens) return loaded;
-  loaded->tree =
-      syntax::parse(loaded->sources, loaded->source, loaded->tokens, loaded->symbols, loaded->diagnostics);
-  loaded->seconds.parse = watch.lap();
-  if (last == Stage::tree || loaded->diagnostics.full()) return loaded;
-
-  const resolve::Options options{.frame = request.frame,
-                                 .overrides = request.overrides,
-                                 .include_directories = request.include_directories,
-                                 .shader = {.watch = request.watch},
-                                 .may_only_define = request.may_only_define};
-  loaded->scene =
-      resolve::resolve(loaded->tree, loaded->sources, loaded->symbols, options, loaded->diagnostics);
-  loaded->seconds.resolve = watch.lap();
   return loaded;
 }
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,8 @@ struct SceneRequest {
   std::optional<int> frame;
   std::vector<std::pair<std::string, std::string>> overrides;  // --set NAME=EXPR
   std::vector<std::string> include_directories;
+  bool allow_outside = false;  // files outside of the folders of the scene and of --include
+  bool keep_text = false;
   bool may_only_define = false;  // a file of definitions for other scenes is good
   std::string watch;             // a name of media's bodies whose value is wanted as well (scene::Watched)
 };
@@ -41,10 +44,12 @@ struct LoadedScene {
   Sources sources;
   syntax::Symbols symbols;
   Diagnostics diagnostics;
+  std::string text;  // the file as it is, where that is asked for
   SourceId source;
   syntax::TokenList tokens;
   syntax::SyntaxTree tree;
-  scene::Scene scene;  // fit for use only when the diagnostics have no errors
+  std::set<std::string> files_read;  // includes and pictures
+  scene::Scene scene;                // fit for use only when the diagnostics have no errors
   struct Seconds {
     double read = 0, parse = 0, resolve = 0;
   } seconds;

@@ -6,10 +6,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <unordered_map>
 
 #include "compile/compiled_scene.h"
 #include "compile/geometry.h"
 #include "image/image.h"
+#include "tools/files_in_use.h"
+#include "tools/numbers.h"
 #include "tools/profile.h"
 #include "tools/report.h"
 #include "tools/slice.h"
@@ -30,6 +33,19 @@ ExitStatus misuse(const std::string& message) {
 ExitStatus fail(const std::string& message) {
   print_error(message);
   return ExitStatus::problem;
+}
+
+// Calls media without a name by their line, "line:12"; "line:12:40" with the column where another has the
+// line already.
+void name_by_lines(scene::Scene& scene, const Sources& sources) {
+  std::unordered_map<std::string, Span> taken;
+  for (scene::Medium& medium : scene.media) {
+    if (medium.name != "medium") continue;  // a reserved word, which no definition can have
+    const LineColumn at = sources[medium.definition.source].locate(medium.definition.begin);
+    medium.name = fmt::format("line:{}", at.line);
+    if (taken.try_emplace(medium.name, medium.definition).first->second != medium.definition)
+      medium.name += fmt::format(":{}", at.column);
+  }
 }
 
 // A volume of the scene, or of an object where it is first placed.
@@ -200,8 +216,11 @@ void add_look_options(CLI::App& command, LookArguments& arguments) {
           "--medium", arguments.medium,
           "With --slice or --profile: the medium to look at, by its name, or an unnamed one by its line")
       ->option_text("NAME|line:N");
-  command.add_option("--slice", arguments.slice, "Picture a plane through a medium's volume, in its p")
-      ->option_text("x|y|z=METRES");
+  const RealOption& slice = real_option("--slice");
+  command
+      .add_option(std::string(slice.name), arguments.slice,
+                  "Picture a plane through a medium's volume, in its p")
+      ->option_text(std::string(slice.form));
   command
       .add_option("--show", arguments.show,
                   "With --slice: the output or name of the body to picture (default: density)")
@@ -215,14 +234,17 @@ void add_look_options(CLI::App& command, LookArguments& arguments) {
 }
 
 ExitStatus look(const SceneRequest& request, const LookArguments& arguments) {
+  FilesInUse files;
   if (!arguments.profile) {
     if (arguments.slice.empty()) return misuse("this wants a plane to look at: --slice z=0");
     if (!parse_slice(arguments.slice))
-      return misuse(fmt::format("--slice wants a coordinate of p in metres, for instance z=0, not '{}'",
-                                arguments.slice));
+      return misuse(
+          fmt::format("--slice wants {}, not '{}'", wanted(real_option("--slice")), arguments.slice));
     if (arguments.output.empty()) return misuse("--slice wants the picture to write: -o slice.png");
-    if (const std::string problem = image::check_writable(arguments.output); !problem.empty())
-      return fail(problem);
+    files.read(request.path, "the scene");
+    std::string problem = image::check_writable(arguments.output);
+    if (problem.empty()) problem = files.write(arguments.output, "-o");
+    if (!problem.empty()) return fail(problem);
   } else if (!arguments.slice.empty() || !arguments.show.empty() || !arguments.output.empty()) {
     return misuse("--profile prints text: --slice, --show and -o belong to another call");
   }
@@ -231,6 +253,9 @@ ExitStatus look(const SceneRequest& request, const LookArguments& arguments) {
   const std::unique_ptr<LoadedScene> loaded = load(watching);
   print_diagnostics(loaded->diagnostics, loaded->sources);
   if (loaded->diagnostics.has_errors()) return ExitStatus::problem;
+  if (const std::string problem = files.read_by_scene(loaded->files_read); !problem.empty())
+    return fail(problem);
+  name_by_lines(loaded->scene, loaded->sources);
   return arguments.profile ? show_profile(arguments, *loaded) : show_slice(arguments, *loaded);
 }
 

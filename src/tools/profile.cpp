@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <map>
 
-#include "vm/cost.h"
-
 namespace tyndall::tools {
 
 namespace {

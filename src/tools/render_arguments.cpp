@@ -4,79 +4,32 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <span>
 #include <string_view>
 #include <utility>
+
+#include "tools/numbers.h"
 
 namespace tyndall::tools {
 namespace {
 
-constexpr int max_edge = 1 << 16;   // pixels
-constexpr int max_count = 1 << 30;  // samples, bounces
-constexpr int max_threads = 1 << 12;
-const CLI::Range positive_count(1, max_count);
-// CLI11 alone would let -1 through as 2^64 - 1.
-const CLI::Validator not_below_zero(
-    [](const std::string& text) {
-      return text.starts_with('-') ? fmt::format("wants a whole number from 0, not '{}'", text)
-                                   : std::string();
-    },
-    "");
-
-// A finite number above 0, by itself.
-CLI::Validator positive_number(std::string_view wanted) {
-  return {[wanted](const std::string& text) {
-            double value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const bool good =
-                error == std::errc() && end == text.data() + text.size() && value > 0 && std::isfinite(value);
-            return good ? std::string() : fmt::format("wants {} above 0, not '{}'", wanted, text);
-          },
-          ""};
-}
-
-// Whole numbers with the separators between them and nothing else: "640x360" with "x", "0,0,8,8" with ",".
-bool read_numbers(std::string_view text, std::string_view separator, std::span<int> numbers) {
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (i > 0) {
-      if (!text.starts_with(separator)) return false;
-      text.remove_prefix(separator.size());
-    }
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), numbers[i]);
-    if (error != std::errc()) return false;
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  }
-  return text.empty();
-}
-
-bool read_number(std::string_view text, double& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size() && number > 0 && std::isfinite(number);
-}
-
 // "0.1", "auto", "auto(1%)", "auto(0.01)".
 std::optional<scene::Step> read_step(std::string_view text) {
-  double number = 0;
   if (text == "auto") return scene::Step::automatic_unproven();
-  if (!text.starts_with("auto(") || !text.ends_with(")"))
-    return read_number(text, number) ? std::optional<scene::Step>(number) : std::nullopt;
-  text = text.substr(5, text.size() - 6);
-  const bool percent = text.ends_with("%");
+  const bool automatic = text.starts_with("auto(") && text.ends_with(")");
+  if (automatic) text = text.substr(5, text.size() - 6);
+  const bool percent = automatic && text.ends_with("%");
   if (percent) text.remove_suffix(1);
-  if (!read_number(text, number) || !((number = percent ? number / 100 : number) < 1)) return std::nullopt;
-  return scene::Step::automatic_within(number);
+  const std::optional<double> number = read_decimal<double>(text);
+  if (!number || !(*number > 0)) return std::nullopt;
+  if (!automatic) return scene::Step(*number);
+  const double tolerance = percent ? *number / 100 : *number;
+  return tolerance < 1 ? std::optional(scene::Step::automatic_within(tolerance)) : std::nullopt;
 }
 
 constexpr Choice<MultipleScatteringChoice> multiple_scatterings[] = {
     {scene::MultipleScattering::full, MultipleScatteringChoice::full},
     {scene::ApproximateScattering::keyword, MultipleScatteringChoice::approximate},
 };
-
-[[noreturn]] void refuse(const std::string& option, std::string_view wanted, const std::string& text) {
-  throw CLI::ValidationError(option, fmt::format("wants {}, not '{}'", wanted, text));
-}
 
 std::string aov_names() {
   std::string names;
@@ -86,53 +39,35 @@ std::string aov_names() {
 }
 
 void add_picture_options(CLI::App& command, RenderArguments& arguments) {
-  command
-      .add_option_function<std::string>(
-          "--resolution",
-          [&arguments](const std::string& text) {
-            int n[2] = {};
-            if (!read_numbers(text, "x", n) || std::min(n[0], n[1]) < 1 || std::max(n[0], n[1]) > max_edge)
-              refuse("--resolution", fmt::format("WIDTHxHEIGHT, each 1 to {}", max_edge), text);
-            arguments.resolution = Pair<int>{n[0], n[1]};
-          },
-          "Size of the picture in pixels, in place of the scene's")
-      ->option_text("WxH");
-  command
-      .add_option_function<std::string>(
-          "--crop",
-          [&arguments](const std::string& text) {
-            int n[4] = {};
-            if (!read_numbers(text, ",", n) || n[0] < 0 || n[1] < 0 || n[2] <= n[0] || n[3] <= n[1])
-              refuse("--crop", "x0,y0,x1,y1 with 0 <= x0 < x1 and 0 <= y0 < y1", text);
-            arguments.crop = {n[0], n[1], n[2], n[3]};
-          },
-          "Render only the pixels from (x0, y0) up to, not including, (x1, y1); the others stay black")
-      ->option_text("X0,Y0,X1,Y1");
+  add_whole_text_option(command, "--resolution", "Size of the picture in pixels, in place of the scene's",
+                        [&arguments](const std::string& text, const WholeOption& option) {
+                          const auto [width, height] = read_wholes<int, 2>(option, text);
+                          arguments.resolution = Pair<int>{width, height};
+                        });
+  add_whole_text_option(
+      command, "--crop",
+      "Render only the pixels from (x0, y0) up to, not including, (x1, y1); the others stay black",
+      [&arguments](const std::string& text, const WholeOption& option) {
+        const auto [x0, y0, x1, y1] = read_wholes<int, 4>(option, text);
+        if (x1 <= x0 || y1 <= y0) refuse(option.name, "X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1", text);
+        arguments.crop = {x0, y0, x1, y1};
+      });
 }
 
 void add_quality_options(CLI::App& command, RenderArguments& arguments) {
-  command.add_option("--samples", arguments.samples, "Samples a pixel, in place of the scene's")
-      ->check(positive_count)
-      ->option_text("N");
-  command
-      .add_option_function<std::string>(
-          "--step",
-          [&arguments](const std::string& text) {
-            arguments.step = read_step(text);
-            if (!arguments.step)
-              refuse("--step", "a length in metres above 0, auto, or a tolerance: auto(1%)", text);
-          },
-          "Length of a step through a volume in metres, or auto(TOLERANCE): as long as proven bounds of the "
-          "density allow; in place of the scene's (a volume's own stays)")
-      ->option_text("X|auto|auto(1%)");
-  command
-      .add_option("--light-samples", arguments.light_samples,
-                  "Direct-light samples a march, in place of the scene's")
-      ->check(CLI::Range(1, 1 << 16))
-      ->option_text("N");
-  command.add_option("--bounces", arguments.bounces, "Scatterings after the first, in place of the scene's")
-      ->check(CLI::Range(0, max_count))
-      ->option_text("N");
+  add_whole(command, "--samples", arguments.samples, "Samples a pixel, in place of the scene's");
+  const RealOption& step = real_option("--step");
+  add_text_option(
+      command, step.name, step.form,
+      "Length of a step through a volume in metres, or auto(TOLERANCE): as long as proven bounds of the "
+      "density allow; in place of the scene's (a volume's own stays)",
+      [&arguments, &step](const std::string& text) {
+        arguments.step = read_step(text);
+        if (!arguments.step) refuse(step.name, wanted(step), text);
+      });
+  add_whole(command, "--light-samples", arguments.light_samples,
+            "Direct-light samples a march, in place of the scene's");
+  add_whole(command, "--bounces", arguments.bounces, "Scatterings after the first, in place of the scene's");
   command
       .add_option_function<std::string>(
           "--multiple-scattering",
@@ -146,20 +81,13 @@ void add_quality_options(CLI::App& command, RenderArguments& arguments) {
           "place "
           "of what the scene says")
       ->option_text(names_of(multiple_scatterings, "|"));
-  command.add_option("--seed", arguments.seed, "Seed of the random numbers, in place of the scene's")
-      ->check(not_below_zero)
-      ->option_text("N");
-  command
-      .add_option_function<std::string>(
-          "--sample-range",
-          [&arguments](const std::string& text) {
-            int n[2] = {};
-            if (!read_numbers(text, "..", n) || n[0] < 0 || n[1] < n[0] || n[1] > max_count)
-              refuse("--sample-range", "A..B with 0 <= A <= B", text);
-            arguments.sample_range = SampleRange{n[0], n[1]};
-          },
-          "Render the samples A to B, both included, of each pixel")
-      ->option_text("A..B");
+  add_whole(command, "--seed", arguments.seed, "Seed of the random numbers, in place of the scene's");
+  add_whole_text_option(command, "--sample-range", "Render the samples A to B, both included, of each pixel",
+                        [&arguments](const std::string& text, const WholeOption& option) {
+                          const auto [first, last] = read_wholes<int, 2>(option, text);
+                          if (last < first) refuse(option.name, "A..B with A no more than B", text);
+                          arguments.sample_range = SampleRange{first, last};
+                        });
 }
 
 // An option whose value is one of a table's names.
@@ -194,18 +122,13 @@ void add_method_options(CLI::App& command, RenderArguments& arguments) {
 // Options that say when a rendering ends, and what it writes beside the picture.
 void add_goal_options(CLI::App& command, RenderArguments& arguments) {
   CLI::Option* error =
-      command
-          .add_option("--error", arguments.error,
-                      "Sample each part of the picture until the root of its mean squared relative error is "
-                      "below this; --samples is then the most a pixel gets")
-          ->check(positive_number("a relative error"))
-          ->option_text("X");
+      add_real(command, "--error", arguments.error,
+               "Sample each part of the picture until the root of its mean squared relative error is "
+               "below this; --samples is then the most a pixel gets");
   CLI::Option* time_limit =
-      command
-          .add_option("--time-limit", arguments.time_limit,
-                      "End after so many seconds of rendering; --samples is then the most a pixel gets")
-          ->check(positive_number("seconds"))
-          ->option_text("S");
+      add_real(command, "--time-limit", arguments.time_limit,
+               "End after so many seconds of rendering; --samples is then the most a pixel gets");
+  command.get_option("--sample-range")->excludes(command.get_option("--samples"));
   // Parts of a picture that are put together later must not each decide when they are good enough.
   for (CLI::Option* goal : {error, time_limit})
     for (const char* part : {"--crop", "--sample-range"}) goal->excludes(command.get_option(part));
@@ -226,34 +149,27 @@ void add_goal_options(CLI::App& command, RenderArguments& arguments) {
 }
 
 void add_running_options(CLI::App& command, RenderArguments& arguments) {
-  command.add_option("--threads", arguments.threads, "Threads to use (default: as many as the machine has)")
-      ->check(CLI::Range(1, max_threads))
-      ->option_text("N");
+  add_whole(command, "--threads", arguments.threads,
+            "Threads to use, in place of as many as the machine has");
   command
       .add_option("--stats", arguments.statistics_file,
                   "Write times and counts of the run to this file, as JSON")
       ->option_text("FILE.json");
   command.add_flag("--strict", arguments.strict,
-                   "Make values of shaders that are no numbers or negative an error");
+                   "Make values of shaders out of their range, a tolerance that is not kept and light that the "
+                   "film loses an error");
   command.add_flag("--profile", arguments.profile,
                    "Print the share of each source line in the shaders' time");
   command.add_flag("--quiet", arguments.quiet, "Say nothing but errors and warnings");
   command.add_flag("--json", arguments.json, "Print problems and statistics as JSON on standard output");
-  auto* pixel = command
-                    .add_option_function<std::string>(
-                        "--pixel",
-                        [&arguments](const std::string& text) {
-                          int n[2] = {};
-                          if (!read_numbers(text, ",", n) || n[0] < 0 || n[1] < 0)
-                            refuse("--pixel", "x,y counted from 0 at the top left", text);
-                          arguments.pixel = Pair<int>{n[0], n[1]};
-                        },
-                        "With --sample: replay one sample of this pixel and print what happens on its path")
-                    ->option_text("X,Y");
+  auto* pixel = add_whole_text_option(
+      command, "--pixel", "With --sample: replay one sample of this pixel and print what happens on its path",
+      [&arguments](const std::string& text, const WholeOption& option) {
+        const auto [x, y] = read_wholes<int, 2>(option, text);
+        arguments.pixel = Pair<int>{x, y};
+      });
   auto* sample =
-      command.add_option("--sample", arguments.sample, "With --pixel: the sample to replay, counted from 0")
-          ->check(not_below_zero)
-          ->option_text("N");
+      add_whole(command, "--sample", arguments.sample, "With --pixel: the sample to replay, counted from 0");
   pixel->needs(sample);
   sample->needs(pixel);
 }
@@ -308,6 +224,7 @@ std::string replay_command(const RenderArguments& arguments, int x, int y, std::
     command += " --set " + shell_word(variable + "=" + expression);
   for (const std::string& directory : arguments.scene.include_directories)
     command += " --include " + shell_word(directory);
+  if (arguments.scene.allow_outside) command += " --allow-outside";
   if (arguments.resolution)
     command += fmt::format(" --resolution {}x{}", arguments.resolution->x, arguments.resolution->y);
   add("--samples", arguments.samples);

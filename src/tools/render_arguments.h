@@ -23,7 +23,7 @@ struct RenderArguments {
   SceneRequest scene;
   std::string output, statistics_file;
   std::optional<Pair<int>> resolution, pixel;
-  std::optional<render::RenderOptions::Crop> crop;
+  std::optional<render::PixelWindow> crop;
   std::optional<int> samples, light_samples, bounces;
   std::optional<scene::Step> step;
   std::optional<MultipleScatteringChoice> multiple_scattering;

@@ -12,7 +12,9 @@
 #include "compile/compiled_scene.h"
 #include "image/files.h"
 #include "tools/commands.h"
+#include "tools/files_in_use.h"
 #include "tools/interrupt.h"
+#include "tools/memory.h"
 #include "tools/profile.h"
 #include "tools/progress.h"
 #include "tools/report.h"
@@ -40,12 +42,29 @@ ExitStatus misuse(const std::string& message) {
   return ExitStatus::misuse;
 }
 
+// Statistics go into a file of their own kind, so that a slip of the pen cannot replace another; a device or
+// pipe has whatever name it has.
+std::string statistics_problem(const std::string& path) {
+  if (!path.ends_with(".json") && image::appears_whole(path))
+    return fmt::format("--stats wants a name that ends in .json, not '{}'", path);
+  return image::check_file_writable(path);
+}
+
 // What can be said against the output files before any work is done.
-std::string output_problem(const RenderArguments& arguments) {
-  if (!arguments.output.empty())
-    if (std::string problem = image::check_writable(arguments.output); !problem.empty()) return problem;
-  if (!arguments.statistics_file.empty()) return image::check_file_creatable(arguments.statistics_file);
-  return {};
+std::string output_problem(const RenderArguments& arguments, FilesInUse& files) {
+  std::string problem = files.read(arguments.scene.path, "the scene");
+  const auto check = [&problem](auto&& next) {
+    if (problem.empty()) problem = next();
+  };
+  if (!arguments.output.empty()) {
+    check([&] { return image::check_writable(arguments.output); });
+    check([&] { return files.write(arguments.output, "-o"); });
+  }
+  if (!arguments.statistics_file.empty()) {
+    check([&] { return statistics_problem(arguments.statistics_file); });
+    check([&] { return files.write(arguments.statistics_file, "--stats"); });
+  }
+  return problem;
 }
 
 // What of the options does not fit this scene's picture.
@@ -128,7 +147,7 @@ class PicturesSoFar {
       : arguments_(arguments), scene_(scene), scene_hash_(std::move(scene_hash)) {}
 
   void write(const render::Film& film, const render::Statistics& statistics) {
-    if (statistics.seconds < next_) return;
+    if (!wanted_ || statistics.seconds < next_) return;
     Stopwatch watch;
     image::Metadata metadata = metadata_of(arguments_, scene_, scene_hash_, statistics);
     metadata.emplace_back("tyndall:unfinished", fmt::format("{} samples so far", statistics.samples));
@@ -142,6 +161,8 @@ class PicturesSoFar {
   const RenderArguments& arguments_;
   const scene::Scene& scene_;
   std::string scene_hash_;
+  // A device or pipe wants one picture, and with --strict it is not known yet whether there will be any.
+  const bool wanted_ = image::appears_whole(arguments_.output) && !arguments_.strict;
   double next_ = least_interval;
 };
 
@@ -173,34 +194,41 @@ std::vector<ProgramLanes> programs_of(const scene::Scene& scene, const render::S
   return programs;
 }
 
-// Writes the picture and the statistics, and says what is to be said of the run.
+std::string write_picture(const RenderArguments& arguments, const scene::Scene& scene,
+                          const std::string& scene_hash, const render::RenderResult& result) {
+  return image::write(arguments.output, result.film.image(),
+                      metadata_of(arguments, scene, scene_hash, result.statistics), exposure_of(scene));
+}
+
+std::string write_statistics(const RenderArguments& arguments, const nlohmann::json& statistics) {
+  if (arguments.statistics_file.empty()) return {};
+  const std::string text = statistics.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return image::write_file_whole(arguments.statistics_file, std::as_bytes(std::span(text)));
+}
+
+// Writes the picture, unless --strict made errors of what was met, and the statistics, and says what is to be
+// said of the run.
 ExitStatus finish(const RenderArguments& arguments, LoadedScene& loaded, const scene::Scene& scene,
                   const std::string& scene_hash, const render::RenderResult& result, StageSeconds& seconds) {
-  Stopwatch watch;
-  const std::string problem =
-      image::write(arguments.output, result.film.image(),
-                   metadata_of(arguments, scene, scene_hash, result.statistics), exposure_of(scene));
-  seconds.write = watch.lap();
-  if (!problem.empty()) return fail(arguments, problem);
-
-  nlohmann::json statistics = statistics_json(scene, scene_hash, seconds, result.statistics, loaded.sources);
-  if (!arguments.statistics_file.empty()) {
-    const std::string text = statistics.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-    const std::string failure =
-        image::write_file_whole(arguments.statistics_file, std::as_bytes(std::span(text)));
-    if (!failure.empty()) return fail(arguments, failure);
-  }
-
   report_run_problems(arguments, result.statistics, loaded.diagnostics);
+  const bool good = !loaded.diagnostics.has_errors();
+  Stopwatch watch;
+  std::string problem = good ? write_picture(arguments, scene, scene_hash, result) : std::string();
+  seconds.write = watch.lap();
+  nlohmann::json statistics = statistics_json(scene, scene_hash, seconds, result.statistics, loaded.sources);
+  if (problem.empty()) problem = write_statistics(arguments, statistics);
   print_diagnostics(loaded.diagnostics, loaded.sources);
+  if (!problem.empty()) return fail(arguments, problem);
+  if (!good)
+    print_error(fmt::format("'{}' was not written, for --strict wants none of this", arguments.output));
   if (arguments.profile) print_result(profile_text(programs_of(scene, result.statistics), loaded.sources));
   if (arguments.json) {
     statistics["diagnostics"] = to_json(loaded.diagnostics, loaded.sources);
     print_json(statistics);
   }
-  if (!arguments.quiet) print_message(summary_line(arguments, scene, result.statistics));
-  if (result.statistics.stopped) return ExitStatus::interrupted;
-  return loaded.diagnostics.has_errors() ? ExitStatus::problem : ExitStatus::done;
+  if (!arguments.quiet && good) print_message(summary_line(arguments, scene, result.statistics));
+  if (!good) return ExitStatus::problem;
+  return result.statistics.stopped ? ExitStatus::interrupted : ExitStatus::done;
 }
 
 ExitStatus run_render(const RenderArguments& arguments) {
@@ -208,11 +236,14 @@ ExitStatus run_render(const RenderArguments& arguments) {
     return misuse("render wants the picture to write: -o OUT.exr");
   if (!arguments.aovs.empty() && !arguments.pixel && !arguments.output.ends_with(".exr"))
     return misuse("--aov wants an .exr to write: other formats have no further channels");
-  if (const std::string problem = output_problem(arguments); !problem.empty())
+  FilesInUse files;
+  if (const std::string problem = output_problem(arguments, files); !problem.empty())
     return fail(arguments, problem);
 
   const std::unique_ptr<LoadedScene> loaded = load(arguments.scene);
   if (loaded->diagnostics.has_errors()) return end_with(arguments, loaded->diagnostics, loaded->sources);
+  if (const std::string problem = files.read_by_scene(loaded->files_read); !problem.empty())
+    return fail(arguments, problem);
   const std::string scene_hash = stable_hash(scene::print(loaded->scene));
   apply_settings(arguments, loaded->scene.settings);
   if (const std::string problem = picture_problem(arguments, loaded->scene.settings); !problem.empty())
@@ -223,13 +254,16 @@ ExitStatus run_render(const RenderArguments& arguments) {
 
   StageSeconds seconds{loaded->seconds.read, loaded->seconds.parse, loaded->seconds.resolve};
   Stopwatch watch;
-  const compile::CompiledScene world = compile::compile(std::move(loaded->scene));
+  const compile::CompiledScene world =
+      with_memory("to compile the scene", [&] { return compile::compile(std::move(loaded->scene)); });
   seconds.compile = watch.lap();
   if (arguments.pixel) return replay(arguments, world);
 
-  const render::RenderResult result = render_with_progress(arguments, world, scene_hash);
+  const render::RenderResult result = with_memory(
+      "to render the picture", [&] { return render_with_progress(arguments, world, scene_hash); });
   seconds.render = watch.lap();
-  return finish(arguments, *loaded, world.scene, scene_hash, result, seconds);
+  return with_memory("to write the picture",
+                     [&] { return finish(arguments, *loaded, world.scene, scene_hash, result, seconds); });
 }
 
 }  // namespace

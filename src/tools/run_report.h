@@ -31,11 +31,12 @@ nlohmann::json statistics_json(const scene::Scene& scene, const std::string& sce
                                const Sources& sources);
 
 // Adds a message for every shader statement that gave bad values, and for bad samples with the command that
-// replays the first: warnings, or errors with --strict. Warns of bounds that were cut.
+// replays the first: warnings, or errors with --strict; so for tolerances that were not kept and for
+// light that the film lost. Warns of steps that were widened, and of bounds that were cut.
 void report_run_problems(const RenderArguments& arguments, const render::Statistics& statistics,
                          Diagnostics& diagnostics);
 
-// "fog.exr: 640x360, 64 samples a pixel in 0:12, 1.20 Msamples/s"
+// "fog.exr: 640x360, 64 samples a pixel in 0:12, 1.20 Msamples/s", and what `bounces` cut when that is much.
 std::string summary_line(const RenderArguments& arguments, const scene::Scene& scene,
                          const render::Statistics& statistics);
 

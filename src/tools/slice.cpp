@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
+#include "tools/numbers.h"
 #include "vm/machine.h"
 
 namespace tyndall::tools {
@@ -58,11 +58,10 @@ void measure(Slice& slice) {
 
 std::optional<SlicePlane> parse_slice(const std::string& text) {
   if (text.size() < 3 || text[0] < 'x' || text[0] > 'z' || text[1] != '=') return std::nullopt;
-  char* end = nullptr;
-  const double at = std::strtod(text.c_str() + 2, &end);
-  if (*end == 'm') ++end;
-  if (*end != '\0' || !std::isfinite(at)) return std::nullopt;
-  return SlicePlane{text[0] - 'x', at};
+  std::string_view number = std::string_view(text).substr(2);
+  if (number.ends_with('m')) number.remove_suffix(1);
+  const std::optional<double> at = read_decimal<double>(number);
+  return at ? std::optional(SlicePlane{text[0] - 'x', *at}) : std::nullopt;
 }
 
 Slice cut(const MediumPlace& place, const scene::Watched& watched, const std::string& name, double time,

@@ -91,6 +91,20 @@ float Builder::constant_value(NodeId id) const {
 
 bool Builder::is_uniform(NodeId id) const { return nodes_[id.index].uniform; }
 
+std::vector<Builder::LatticeField> Builder::lattice_fields(std::span<const NodeId> outputs) const {
+  const Graph graph(nodes_, outputs);
+  std::vector<LatticeField> out;
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+    const Node& node = graph.nodes[i];
+    if (graph.uses[i] == 0 || !node.is_operation() || !op_info(node.op).has(OpTrait::lattice)) continue;
+    LatticeField field{node.op, node.span, {node.reads().begin(), node.reads().end()}};
+    const bool again = std::any_of(out.begin(), out.end(),
+                                   [&](const LatticeField& other) { return other.place == field.place; });
+    if (!again) out.push_back(std::move(field));
+  }
+  return out;
+}
+
 NodeId Builder::add(const Node& node) {
   const auto key = [](const Node& n) {
     std::uint64_t hash = combine(static_cast<std::uint64_t>(n.kind), static_cast<std::uint64_t>(n.op));

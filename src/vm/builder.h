@@ -44,6 +44,15 @@ class Builder {
   // True when the node has one value for all lanes (constants, time, and what is made of them).
   bool is_uniform(NodeId id) const;
 
+  // The fields of a lattice (noise and its like, checker) among what `outputs` are made of, each with its
+  // place; those at equal places once.
+  struct LatticeField {
+    Op op{};
+    Span span;
+    std::vector<NodeId> place;
+  };
+  std::vector<LatticeField> lattice_fields(std::span<const NodeId> outputs) const;
+
   // The program that computes exactly `outputs`, in that order. May be called several times with different
   // outputs (density only; everything). The result satisfies verify(). Programs over the limits of the
   // encoding (65,535 operands) are reported by an empty optional.

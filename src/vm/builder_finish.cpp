@@ -109,7 +109,8 @@ class Writer {
     Instruction instruction;
     instruction.op = node.op;
     instruction.count = node.count;
-    instruction.immediate = op_info(node.op).plane ? plane_index(node.immediate) : node.immediate;
+    instruction.immediate =
+        op_info(node.op).has(OpTrait::plane) ? plane_index(node.immediate) : node.immediate;
     const auto reads = node.reads();
     for (std::size_t k = 0; k < reads.size(); ++k) instruction.operands[k] = operand(reads[k]);
     return instruction;

@@ -1,6 +1,6 @@
-// The one table of built-in functions: name, parameters, meaning, documentation, opcode. From a row come
-// overloads, "did you mean", folding, listings, the manual's entry, editor completion and the tests at
-// awkward arguments.
+// The built-in functions: name, parameters, meaning, documentation, operation. The rows stand in
+// operations.inc. From a row come overloads, "did you mean", folding, listings, the manual's entry, editor
+// completion and the tests at awkward arguments.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@ enum class Shape : std::uint8_t {
                   // ones)
   angle_to_number,  // sin cos tan: of an angle or a number in radians
   number_to_angle,  // asin acos atan atan2: an angle
-  length,           // of a pair or vec: length2/length3
+  length,           // of a pair or vec. ops: of a pair, of a vec
   field,            // a point, then options by name: `time`, `octaves`, `seed`. A number.
-                    // op is the 3-operand form, the next op in the list the one with time
-  vector_field,     // curl: as field, a vec; op is the first of curl3_x..z, curl4 follow
+                    // ops: without a time, with one
+  vector_field,     // curl: as field, a vec. ops: x, y, z without a time, then with one
   custom,  // the evaluator knows it by name (dot cross normalize reflect distance rotate_x … keys random
            // remap luminance blackbody sd_* smooth_union length-of-list checker …), built of other ops
 };
@@ -37,12 +37,14 @@ struct BuiltinParameter {
 struct Builtin {
   std::string_view name;
   Shape shape;
-  Op op;  // unused for custom
+  std::vector<Op> ops;  // that it becomes, by its shape; none for custom
   std::vector<BuiltinParameter> parameters;
   std::string_view result;         // as the manual writes it
   std::string_view documentation;  // one or two sentences, with ranges
   std::string_view example;        // an expression that must evaluate
   bool in_bodies = true;           // false: scene code only (translate, look_at, …)
+
+  Op op() const { return ops.empty() ? Op::copy : ops.front(); }
 };
 
 // All rows, sorted by name.

@@ -145,7 +145,7 @@ ValueBounds evaluate_bounds(Op op, std::span<const ValueBounds> operands, std::u
     write_everywhere(views[k], operands[k].lo, operands[k].hi);
     if (operands[k].may_be_nan) std::fill_n(views[k].data + 2 * widest_vector, widest_vector, 1.0f);
   }
-  CHECK(!op_info(op).plane);
+  CHECK(!op_info(op).has(OpTrait::plane));
   run_interval_code(std::span(&instruction, 1), views, simd_lanes(), nullptr);
   return read(views[4], 0);
 }

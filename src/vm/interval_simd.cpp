@@ -15,7 +15,7 @@
 #define HWY_TARGET_INCLUDE "vm/interval_simd.cpp"
 #include "hwy/foreach_target.h"
 //
-#include "vm/kernels/interval-dispatch-inl.h"
+#include "vm/kernels/dispatch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyndall::vm::HWY_NAMESPACE {
@@ -53,9 +53,8 @@ void bound_instruction(const Instruction& instruction, const BoundView* operands
 using BoundFunction = void (*)(const Instruction&, const BoundView*, std::size_t, const PlanePointer*);
 
 constexpr BoundFunction bound_functions[] = {
-#define X(name, operand_count) &bound_instruction<Op::name>,
-    TYNDALL_VM_OPS(X)
-#undef X
+#define TYNDALL_OP(name, operands, cost, traits) &bound_instruction<Op::name>,
+#include "vm/operations.inc"
 };
 
 void run_interval_code_simd(std::span<const Instruction> code, const BoundView* operands, std::size_t boxes,

@@ -33,21 +33,16 @@ Range product_of(const Range& a, const Range& b) {
 // Sums and products of floats are rounded.
 Range rounded(const Range& r) { return {r.lo - std::fabs(r.lo) * 0x1p-23, r.hi + std::fabs(r.hi) * 0x1p-23}; }
 
-bool is_fraction(Op op) {
-  return op == Op::step || op == Op::smoothstep || op == Op::fract || op == Op::checker || op == Op::less ||
-         op == Op::less_equal || op == Op::equal || op == Op::not_equal || op == Op::logical_and ||
-         op == Op::logical_or || op == Op::logical_not || (op >= Op::random1 && op <= Op::random4);
-}
-
 Range range_of(const std::vector<Node>& nodes, NodeId id, int depth) {
   const Node& node = nodes[id.index];
   if (node.is_constant()) return {static_cast<double>(node.value), static_cast<double>(node.value)};
   if (!node.is_operation() || depth == max_depth) return {};
   const auto operand = [&](std::size_t k) { return range_of(nodes, node.operands[k], depth + 1); };
-  if (is_fraction(node.op)) return {0, 1};
+  if (op_info(node.op).has(OpTrait::fraction)) return {0, 1};
   if (node.op == Op::min) return least_of(operand(0), operand(1));
   if (node.op == Op::max) return largest_of(operand(0), operand(1));
-  if (node.op == Op::clamp) return least_of(largest_of(operand(0), operand(1)), operand(2));
+  if (node.op == Op::clamp || node.op == Op::limit)
+    return least_of(largest_of(operand(0), operand(1)), operand(2));
   if (node.op == Op::floor) return {std::floor(operand(0).lo), std::floor(operand(0).hi)};
   if (node.op == Op::ceil) return {std::ceil(operand(0).lo), std::ceil(operand(0).hi)};
   if (node.op == Op::neg) return {-operand(0).hi, -operand(0).lo};

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "base/check.h"
-#include "vm/cost.h"
 #include "vm/graph.h"
 
 namespace tyndall::vm {

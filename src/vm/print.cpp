@@ -23,9 +23,9 @@ std::string instruction_text(const Program& program, const Instruction& instruct
   std::string text = fmt::format("{} = {}", operand_name(program, instruction.destination), info.name);
   for (int k = 0; k < info.operands; ++k)
     text += ' ' + operand_name(program, instruction.operands[static_cast<std::size_t>(k)]);
-  if (info.octaves) text += fmt::format("  octaves {}", instruction.count);
-  if (info.plane) text += fmt::format("  plane {}", instruction.immediate);
-  if (info.seed) text += fmt::format("  seed {}", instruction.immediate);
+  if (info.has(OpTrait::octaves)) text += fmt::format("  octaves {}", instruction.count);
+  if (info.has(OpTrait::plane)) text += fmt::format("  plane {}", instruction.immediate);
+  if (info.has(OpTrait::seed)) text += fmt::format("  seed {}", instruction.immediate);
   return text;
 }
 

@@ -23,23 +23,20 @@ float lane_of(const float* operands, const HWY_NAMESPACE::Options& options) {
 
 float lane(Op op, const float* operands, std::uint8_t count, std::uint32_t immediate,
            std::span<const PlanePointer> planes) {
-  if (op_info(op).plane) CHECK_LT(immediate, planes.size());
+  if (op_info(op).has(OpTrait::plane)) CHECK_LT(immediate, planes.size());
   const HWY_NAMESPACE::Options options{count, immediate, planes.data()};
   switch (op) {
-#define X(name, n) \
-  case Op::name:   \
+#define TYNDALL_OP(name, operand_count, cost, traits) \
+  case Op::name:                                      \
     return lane_of<Op::name>(operands, options);
-    TYNDALL_VM_OPS(X)
-#undef X
+#include "vm/operations.inc"
   }
   check_failed(__FILE__, __LINE__, "unknown operation");
 }
 
-constexpr bool has_double_form(Op op) { return op < Op::noise3 || op == Op::checker; }
-
 template <Op op>
 double double_of(const double* operands, const HWY_NAMESPACE::Options& options) {
-  if constexpr (has_double_form(op)) {
+  if constexpr (!op_info(op).has(OpTrait::float_only)) {
     return apply<op>(operands, options, std::make_index_sequence<HWY_NAMESPACE::Kernel<op>::operands>());
   } else {
     std::array<float, 4> floats{};
@@ -53,14 +50,13 @@ double double_of(const double* operands, const HWY_NAMESPACE::Options& options) 
 
 double evaluate(Op op, std::span<const double> operands, std::uint8_t count, std::uint32_t immediate) {
   CHECK_EQ(operands.size(), static_cast<std::size_t>(op_info(op).operands));
-  CHECK(!op_info(op).plane);
+  CHECK(!op_info(op).has(OpTrait::plane));
   const HWY_NAMESPACE::Options options{count, immediate, nullptr};
   switch (op) {
-#define X(name, n) \
-  case Op::name:   \
+#define TYNDALL_OP(name, operand_count, cost, traits) \
+  case Op::name:                                      \
     return double_of<Op::name>(operands.data(), options);
-    TYNDALL_VM_OPS(X)
-#undef X
+#include "vm/operations.inc"
   }
   check_failed(__FILE__, __LINE__, "unknown operation");
 }

@@ -21,13 +21,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tyndall::vm::HWY_NAMESPACE {
 
-// Operations of a few instructions a vector.
-constexpr bool is_short(Op op) { return op < Op::pow || (op > Op::atan2 && op < Op::noise3); }
-// Operations that are one long chain, each step waiting for the one before.
-constexpr bool is_chain(Op op) {
-  return (op >= Op::pow && op <= Op::atan2) || (op >= Op::random1 && op <= Op::random4);
-}
-
 // Operand k of the vector at lane i.
 template <std::size_t k>
 TYNDALL_VM_INLINE Floats operand_at(const Step& step, std::size_t i) {
@@ -43,7 +36,7 @@ TYNDALL_VM_INLINE void run_over_lanes(const Step& step, std::size_t first, std::
   const Options options{step.octaves, step.seed, step.planes};
   std::size_t i = first;
   const std::size_t end = first + lanes;
-  if constexpr (is_chain(op)) {
+  if constexpr (op_info(op).has(OpTrait::chain)) {
     for (; i + width < end; i += 2 * width) {
       const FloatsPair result =
           Kernel<op>::run(options, FloatsPair(operand_at<k>(step, i), operand_at<k>(step, i + width))...);
@@ -86,16 +79,15 @@ TYNDALL_VM_INLINE void run_short_over_lanes(const Step& step, std::size_t first,
 template <Op op>
 void run_step(const Step& step, std::size_t first, std::size_t lanes) {
   constexpr auto operands = std::make_index_sequence<Kernel<op>::operands>();
-  if constexpr (is_short(op))
+  if constexpr (op_info(op).has(OpTrait::brief))
     run_short_over_lanes<op>(step, first, lanes, operands);
   else
     run_over_lanes<op>(step, first, lanes, operands);
 }
 
 constexpr StepFunction functions[] = {
-#define X(name, operand_count) &run_step<Op::name>,
-    TYNDALL_VM_OPS(X)
-#undef X
+#define TYNDALL_OP(name, operands, cost, traits) &run_step<Op::name>,
+#include "vm/operations.inc"
 };
 
 std::span<const StepFunction> functions_simd() { return functions; }

@@ -52,14 +52,14 @@ class Verifier {
       const std::string place = fmt::format("{}, instruction {}", part, i);
       if (!uniform) open_and_close_guards(place, i);
       if (!error_.empty()) return;
-      if (static_cast<int>(instruction.op) >= op_count()) return fail("{}: unknown operation", place);
+      if (static_cast<int>(instruction.op) >= op_count) return fail("{}: unknown operation", place);
       const OpInfo& info = op_info(instruction.op);
       const int octaves = instruction.count;
-      if (info.octaves ? octaves < 1 || octaves > max_octaves : octaves != 0)
+      if (info.has(OpTrait::octaves) ? octaves < 1 || octaves > max_octaves : octaves != 0)
         return fail("{}: {} with {} octaves", place, info.name, octaves);
-      if (info.plane && instruction.immediate >= program_.planes.size())
+      if (info.has(OpTrait::plane) && instruction.immediate >= program_.planes.size())
         return fail("{}: plane {} of {}", place, instruction.immediate, program_.planes.size());
-      if (!info.seed && !info.plane && instruction.immediate != 0)
+      if (!info.has(OpTrait::seed) && !info.has(OpTrait::plane) && instruction.immediate != 0)
         return fail("{}: {} takes no seed", place, info.name);
       for (std::size_t k = 0; k < instruction.operands.size() && error_.empty(); ++k) {
         if (k < static_cast<std::size_t>(info.operands))

@@ -53,6 +53,29 @@ TEST(Diagnostics, WhatWouldDisturbATerminalIsReplaced) {
       << place.shown("m");
 }
 
+TEST(Diagnostics, LinesEndInThreeWays) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    Place place("let a = 1" + end + "let b = x" + end, "x");
+    EXPECT_EQ(place.shown("m"),
+              "scene.tyn:2:9: error: m\n"
+              "    2 | let b = x\n"
+              "      |         ^\n");
+  }
+}
+
+TEST(Diagnostics, AByteOrderMarkIsNoPartOfTheLine) {
+  Place place("\xef\xbb\xbfsphere x", "x");
+  const std::string wanted = "    1 | sphere x\n";
+  EXPECT_EQ(place.shown("m"), "scene.tyn:1:8: error: m\n" + wanted + "      |        ^\n");
+  place.span.begin = place.span.end = 0;
+  EXPECT_EQ(place.shown("m"), "scene.tyn:1:1: error: m\n" + wanted + "      | ^\n");
+}
+
+TEST(Diagnostics, LinesThatAreNoTextAreNotShown) {
+  Place place("x" + std::string(20, '\x01') + "secret", "x");
+  EXPECT_EQ(place.shown("m"), "scene.tyn:1:1: error: m\n");
+}
+
 TEST(Diagnostics, AnErrorAtTheEndOfALineOrFileHasACaretBehindIt) {
   Place place("let a =", "=");
   place.span.begin = place.span.end = 7;
@@ -167,6 +190,33 @@ TEST(Nearest, PrefersTheSmallerDistance) {
   EXPECT_EQ(nearest("spere", {"share", "sphere", "spear"}), "sphere");
   EXPECT_EQ(did_you_mean("spere", {"sphere"}), "did you mean 'sphere'?");
   EXPECT_EQ(did_you_mean("cube", {"sphere"}), "");
+}
+
+// Words of up to three letters are all alike: there only a slip of the hand is a mistyped word.
+TEST(Nearest, DoesNotTakeShortWordsForEachOther) {
+  const std::vector<std::string_view> known = {"sin", "min", "max", "abs", "pow",  "log",
+                                               "exp", "mod", "tan", "mix", "dot",  "pi",
+                                               "p",   "n",   "uv",  "hg",  "step", "fov"};
+  for (const char* word :
+       {"mie", "sign", "i",   "e",   "x",   "h",   "sun",  "fog", "rgb", "dog", "box", "max1", "ex",
+        "hue", "u",    "hit", "pie", "mid", "sky", "tank", "lot", "mad", "it",  "an",  "of"})
+    EXPECT_EQ(nearest(word, known), "") << word;
+  const std::pair<std::string_view, std::string_view> slips[] = {
+      {"sni", "sin"}, {"sinn", "sin"}, {"SIN", "sin"}, {"mxa", "max"},   {"ppi", "pi"},    {"PI", "pi"},
+      {"pp", "p"},    {"abbs", "abs"}, {"gh", "hg"},   {"setp", "step"}, {"stpe", "step"}, {"sttep", "step"}};
+  for (const auto& [word, meant] : slips) EXPECT_EQ(nearest(word, known), meant) << word;
+}
+
+// Longer words that share letters by chance.
+TEST(Nearest, TakesOneLetterInThreeAtMost) {
+  const std::vector<std::string_view> known = {"sphere", "focus", "floor",   "noise",
+                                               "point",  "power", "distant", "quad"};
+  for (const char* word : {"torus", "color", "round", "world", "mouse", "constant", "area", "while"})
+    EXPECT_EQ(nearest(word, known), "") << word;
+  const std::pair<std::string_view, std::string_view> mistyped[] = {
+      {"shpere", "sphere"}, {"spheer", "sphere"}, {"focsu", "focus"},     {"flor", "floor"},
+      {"nosie", "noise"},   {"piont", "point"},   {"distand", "distant"}, {"qaud", "quad"}};
+  for (const auto& [word, meant] : mistyped) EXPECT_EQ(nearest(word, known), meant) << word;
 }
 
 TEST(DidYouMean, PrefersTheWordWithOneKeyStuck) {

@@ -11,11 +11,16 @@ bool bench_scenes(double seconds);
 // batches of 256. False when a scene cannot be read or a target is missed.
 bool bench_batches();
 
-// Bounds against points, grids of a cloud, and what skipping empty space saves. False when a target is missed.
+// Bounds against points, grids of a cloud, and what skipping empty space saves. False when a target is
+// missed.
 bool bench_bounds(double seconds_a_row);
 
 // Ten lights against a thousand, at equal error. False when a thousand cost more than three times as much.
 bool bench_lights();
+
+// What `--error` reaches and tells in 20 renders of each scene, tame ones and those with rare bright paths.
+// False when a scene cannot be read.
+bool bench_errors();
 
 // Fire sampled as light against fire that is met by chance, at equal time. False when a scene cannot be read.
 bool bench_fire();

@@ -25,6 +25,7 @@ constexpr std::array benchmarks{
     Benchmark{"batches", true, [](double) { return bench_batches(); }},
     Benchmark{"bounds", true, [](double seconds) { return bench_bounds(seconds); }},
     Benchmark{"lights", true, [](double) { return bench_lights(); }},
+    Benchmark{"errors", false, [](double) { return bench_errors(); }},
     Benchmark{"fire", false, [](double) { return bench_fire(); }},
     Benchmark{"hair", false, [](double) { return bench_hair(); }},
     Benchmark{"scattering", false, [](double) { return bench_scattering(); }},

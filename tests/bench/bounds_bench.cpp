@@ -251,7 +251,8 @@ bool bench_bounds(double seconds) {
   bool good = bench_boxes(seconds);
   good &= bench_grid("cloud, 20 smoothstep(1, 0.4, length(p) + 0.35 fbm(2.3 p, octaves: 6))", round_cloud,
                      seconds);
-  good &= bench_grid("the noise shader, which is empty outside of a ball and above y = 0", noise_shader, seconds);
+  good &=
+      bench_grid("the noise shader, which is empty outside of a ball and above y = 0", noise_shader, seconds);
   good &= bench_skipping("cloud in 5 % of its box, whole box", small_cloud, {0, 1.2, 5}, seconds);
   good &= bench_skipping("cloud in 5 % of its box, from near", small_cloud, {0, 0.2, 1.9}, seconds);
   good &= bench_skipping("warped, whole box", small_warped_cloud, {0, 1.2, 5}, seconds);

@@ -25,7 +25,7 @@ Program chain_of(Op op, int length) {
   const OpInfo& info = op_info(op);
   for (int i = 0; i < length; ++i)
     operands[0] = builder.emit(op, std::span(operands).first(static_cast<std::size_t>(info.operands)), {},
-                               info.octaves ? 1 : 0);
+                               info.has(OpTrait::octaves) ? 1 : 0);
   return *builder.finish(std::span(operands).first(1));
 }
 
@@ -56,7 +56,7 @@ void bench_ops(double seconds_a_row) {
   };
   fmt::print("SIMD class {}; nanoseconds a lane in batches of {}, an octave of those that have some\n",
              simd_name(), lanes);
-  for (int i = 0; i < op_count(); ++i) {
+  for (int i = 0; i < op_count; ++i) {
     const Op op = static_cast<Op>(i);
     fmt::print("{:12} {:7.3f}\n", op_info(op).name,
                (nanoseconds(chain_of(op, 9)) - nanoseconds(chain_of(op, 1))) / 8);

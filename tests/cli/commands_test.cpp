@@ -114,6 +114,50 @@ TEST_F(Commands, CompareTellsNumbersAndFails) {
   EXPECT_EQ(tyndall({"compare", path("a.exr"), path("none.exr")}).status, 1);
 }
 
+TEST_F(Commands, UnknownWordsAreToldWithWhatWasMeant) {
+  const std::string scene = file("a.tyn", small_scene());
+  const struct {
+    std::vector<std::string> arguments;
+    std::vector<std::string> told;
+  } cases[] = {
+      {{}, {"wants a command", "render", "compare"}},
+      {{"rendre", scene, "-o", path("a.png")}, {"no command 'rendre': did you mean 'render'?", "inspect"}},
+      {{"chek", scene}, {"no command 'chek': did you mean 'check'?"}},
+      {{scene}, {"no command '" + scene + "'", "the commands are: render"}},
+      {{"render", scene, "-o", path("a.png"), "--sampels", "3"},
+       {"render has no option '--sampels': did you mean '--samples'?"}},
+      {{"render", scene, "--sampels=3"}, {"render has no option '--sampels': did you mean '--samples'?"}},
+      {{"check", "--sampels"}, {"check has no option '--sampels'", "tyndall check --help"}},
+      {{"check", scene, "--samples", "3"}, {"check has no option '--samples': it belongs to render"}},
+      {{"compare", "a.exr", "b.exr", "--medium", "fog"}, {"it belongs to inspect"}},
+      {{"--samples", "3", "render", scene},
+       {"before a command there is no option '--samples': it belongs to render"}},
+      {{"render", scene, "more.tyn", "-o", path("a.png")}, {"does not know what to do with 'more.tyn'"}},
+      {{"render", scene, "-o", path("a.png"), "--samples", "4", "--sample-range", "0..3"},
+       {"--sample-range", "excludes", "--samples"}},
+  };
+  for (const auto& c : cases) {
+    const Outcome outcome = tyndall(c.arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    for (const std::string& words : c.told)
+      EXPECT_NE(outcome.err.find(words), std::string::npos) << words << "\n" << outcome.err;
+  }
+}
+
+TEST_F(Commands, AFrameOutsideOfTheAnimationIsTold) {
+  const std::string scene = file("a.tyn", small_scene() + "animation { fps: 24 frames: 10..20 }\n");
+  for (const std::string frame : {"9", "21", "-10"}) {
+    const Outcome outcome = tyndall({"check", scene, "--frame", frame});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(
+        outcome.err.find("a.tyn:12:29: warning: --frame " + frame + " is outside of these frames, 10 to 20"),
+        std::string::npos)
+        << outcome.err;
+  }
+  for (const std::string frame : {"10", "20"}) EXPECT_EQ(tyndall({"check", scene, "--frame", frame}).err, "");
+  EXPECT_EQ(tyndall({"check", scene}).err, "");
+}
+
 TEST_F(Commands, HelpAndVersion) {
   const Outcome version = tyndall({"--version"});
   EXPECT_EQ(version.status, 0);

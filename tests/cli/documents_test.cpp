@@ -132,6 +132,43 @@ TEST_F(Documents, CliPageHasExactlyTheOptionsOfTheProgram) {
   }
 }
 
+// The string literals of a source file, without its comments.
+std::string literals_of(const std::string& source) {
+  std::string text = std::regex_replace(source, std::regex("//[^\n]*"), ""), literals;
+  const std::regex literal(R"re("((?:[^"\\\n]|\\.)*)")re");
+  for (std::sregex_iterator it(text.begin(), text.end(), literal), end; it != end; ++it)
+    literals += (*it)[1].str() + "\n";
+  return literals;
+}
+
+// Help, messages and documents name no option and no command that does not exist.
+TEST_F(Documents, WhatIsNamedExists) {
+  std::set<std::string> commands, options{"--help", "--all" /* of scripts/test */};
+  const std::string help = tyndall({"--help"}).out;
+  const std::regex command_line(R"(\n  ([a-z]+) )");
+  for (std::sregex_iterator it(help.begin(), help.end(), command_line), end; it != end; ++it)
+    commands.insert((*it)[1]);
+  EXPECT_EQ(commands.size(), 5u);
+  options.merge(options_in(help));
+  for (const std::string& command : commands) options.merge(options_in(tyndall({command, "--help"}).out));
+
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const fs::path& document : documents())
+    texts.emplace_back(document.string(), read_file(document.string()));
+  for (const auto& entry : fs::recursive_directory_iterator(root / "src"))
+    if (entry.is_regular_file() && entry.path().extension() != ".txt")
+      texts.emplace_back(entry.path().string(), literals_of(read_file(entry.path().string())));
+  EXPECT_GT(texts.size(), 100u);
+  for (const auto& [name, text] : texts) {
+    for (const std::string& option : options_in(text))
+      EXPECT_TRUE(options.contains(option)) << name << ": " << option;
+    if (!name.ends_with(".md")) continue;
+    const std::regex call(R"(`(?:scripts/)?tyndall ([a-z]+))");
+    for (std::sregex_iterator it(text.begin(), text.end(), call), end; it != end; ++it)
+      EXPECT_TRUE(commands.contains((*it)[1])) << name << ": " << it->str();
+  }
+}
+
 // Those that are compared with other renderers' too.
 TEST_F(Documents, EverySceneIsGoodAndSaysItsPurpose) {
   std::size_t scenes = 0;

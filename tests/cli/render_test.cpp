@@ -234,7 +234,7 @@ TEST_F(Render, CtrlCSavesWhatThereIs) {
   const std::string scene = file("a.tyn", small_scene());
   const Outcome outcome =
       tyndall({"render", scene, "-o", path("a.exr"), "--samples", "100000000", "--stats", path("a.json")},
-              {.interrupt_after_seconds = 1.5, .wait_for_on_err = {}, .environment = {}});
+              {.interrupt_after_seconds = 1.5});
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   const image::ReadResult saved = image::read(path("a.exr"));
   ASSERT_TRUE(saved.image) << saved.error << outcome.err;

@@ -41,7 +41,7 @@ class StreamFile {
   ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
-  std::signal(SIGINT, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) std::signal(signal, SIG_DFL);
   for (const std::string& variable : environment) ::putenv(const_cast<char*>(variable.c_str()));
   std::vector<char*> argv{const_cast<char*>(executable.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -76,7 +76,7 @@ Outcome run(const std::string& executable, const std::vector<std::string>& argum
         may_interrupt_since = now;
       if (may_interrupt_since != Clock::time_point::max() &&
           now - may_interrupt_since > std::chrono::duration<double>(options.interrupt_after_seconds)) {
-        ::kill(child, SIGINT);
+        ::kill(child, options.signal);
         interrupted = true;
       }
     }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,9 +17,10 @@ struct Outcome {
 
 // What may be done to a run from outside.
 struct RunOptions {
-  double interrupt_after_seconds = 0;    // send SIGINT then; 0: never
-  std::string wait_for_on_err;           // … but not before this text is on standard error
-  std::vector<std::string> environment;  // NAME=VALUE, added
+  double interrupt_after_seconds = 0;  // send the signal then; 0: never
+  int signal = SIGINT;
+  std::string wait_for_on_err{};           // … but not before this text is on standard error
+  std::vector<std::string> environment{};  // NAME=VALUE, added
 };
 
 // Runs an executable with arguments and an empty standard input; ends it after two minutes.

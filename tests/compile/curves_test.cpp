@@ -212,7 +212,7 @@ TEST(StrandGroups, JoinsOnlyWhatIsAlike) {
   scene.shapes[10].material = scene::MaterialId(1);
   scene.shapes[20].world_from_object = Transform::translate({1, 0, 0});
   scene.shapes[30].visible = false;
-  scene.motion.shapes.push_back({40, {}});
+  scene.motion.shapes.push_back({40, {}, {}, {}});
   std::vector<std::uint32_t> glows(scene.shapes.size(), no_index);
   glows[45] = 0;
   const auto curves = group_strands(scene, glows);

@@ -384,7 +384,7 @@ TEST(MajorantGrids, PartsOfTheShutterHaveGridsOfTheirOwn) {
     all_the_time.time.hi = world.grids.back()->domain().time.hi;
     if (v.motion) {
       all_the_time.world_from_medium.clear();
-      for (const scene::Volume& key : *v.motion)
+      for (const scene::Volume& key : v.motion->keys)
         all_the_time.world_from_medium.push_back(key.world_from_medium);
     }
     const MajorantGrid whole(world.scene.media[0], all_the_time);

@@ -4,6 +4,7 @@
 
 #include "docs/generated.h"
 #include "render/aov.h"
+#include "tools/numbers.h"
 
 namespace tyndall::docs {
 namespace {
@@ -13,6 +14,15 @@ TEST(CliManual, OutputsBesideThePictureAreThoseOfTheTable) {
   for (const render::AovInfo& info : render::aov_infos())
     table += fmt::format("| `{}` | {} | {} |\n", info.name, info.channels, info.documentation);
   expect_part(root / "docs/cli.md", "aovs", table);
+}
+
+TEST(CliManual, NumbersAreThoseOfTheTables) {
+  std::string table = "| option | wants |\n| --- | --- |\n";
+  for (const tools::WholeOption& option : tools::whole_options)
+    table += fmt::format("| `{}` | {} |\n", option.name, tools::wanted(option));
+  for (const tools::RealOption& option : tools::real_options)
+    table += fmt::format("| `{}` | {} |\n", option.name, tools::wanted(option));
+  expect_part(root / "docs/cli.md", "numbers", table);
 }
 
 }  // namespace

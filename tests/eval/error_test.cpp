@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"let result = keys(0, [0, 1], [0, 2])", "[0, 2]", "must rise"},
         Mistake{"let result = keys(0, [0, 1], [1, 2], ease: soft)", "soft", "linear, smooth or hold"},
         Mistake{"let result = keys(0, [0, 1], 2)", "2", "write [0s, a]"},
-        Mistake{"let result = hg(1)", "1", "(-1, 1)"},
+        Mistake{"let result = hg(1)", "1", "[-0.9999, 0.9999]"},
         Mistake{"let result = mix(hg(0.1), hg(0.2), 2)", "2", "[0, 1]"},
         Mistake{"let result = rotate_y((1, 2, 3), 4, 5)", "rotate_y((1, 2, 3), 4, 5)", "3 arguments"},
         Mistake{"let result = rotate((0, 0, 0), 40deg)", "(0, 0, 0)", "length 0"},

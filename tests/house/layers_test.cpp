@@ -115,7 +115,6 @@ TEST(Layers, EachBigLibraryIsKnownToOneFile) {
   const std::pair<std::string, std::regex> libraries[] = {
       {"Embree", std::regex("^embree[0-9]*/.*")},
       {"OpenImageIO", std::regex("^OpenImageIO/.*")},
-      {"oneTBB", std::regex("^(tbb|oneapi)/.*")},
   };
   const auto includes = read_includes();
   for (const auto& [library, header] : libraries) {

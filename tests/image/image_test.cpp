@@ -90,6 +90,41 @@ TEST_F(ImageFiles, PngIsExposedClampedSrgb) {
   EXPECT_NE(text_of(back.metadata, "ImageDescription").find("tyndall:seed: 17"), std::string::npos);
 }
 
+// A part of a picture comes back as the whole, black around it.
+TEST_F(ImageFiles, APartStandsInTheWhole) {
+  Image part = ramp(2, 3);
+  for (float& value : part.pixels) value = 1;
+  part.place = {4, 5, 9, 10};
+  for (const std::string name : {"a.exr", "a.png"}) {
+    ASSERT_EQ(write(path(name), part, {}), "");
+    const ReadResult back = read(path(name));
+    ASSERT_TRUE(back.image) << back.error;
+    EXPECT_EQ(back.image->width, 9);
+    EXPECT_EQ(back.image->height, 10);
+    for (int y = 0; y < 10; ++y)
+      for (int x = 0; x < 9; ++x)
+        EXPECT_EQ(back.image->at(x, y, 1), x >= 4 && x < 6 && y >= 5 && y < 8 ? 1 : 0)
+            << name << x << "," << y;
+  }
+}
+
+// libpng says so on standard error by itself: the words of libraries are not ours.
+TEST_F(ImageFiles, LibrariesSayNothingThemselves) {
+  ASSERT_EQ(write(path("a.png"), ramp(8, 8), {}), "");
+  std::fstream file(path("a.png"), std::ios::in | std::ios::out | std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  for (std::size_t i = 40; i < bytes.size(); i += 7) bytes[i] = static_cast<char>(bytes[i] ^ 0x55);
+  file.clear();
+  file.seekp(0);
+  file << bytes;
+  file.close();
+  testing::internal::CaptureStderr();
+  const ReadResult result = read(path("a.png"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_FALSE(result.image);
+  EXPECT_NE(result.error, "");
+}
+
 TEST_F(ImageFiles, TheSamePictureIsTheSameBytes) {
   const auto bytes = [&](const std::string& name) {
     EXPECT_EQ(write(path(name), ramp(33, 20), {{"tyndall:seed", "1"}}), "");

@@ -24,10 +24,8 @@ struct Case {
   syntax::Symbols symbols;
 };
 
-// What is said of the scene in a file.
-inline void run_case(const std::string& path, Case& c) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+// What is said of a scene's text.
+inline void run_text(const std::string& path, const std::string& text, Case& c) {
   resolve::Options options;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -40,6 +38,12 @@ inline void run_case(const std::string& path, Case& c) {
   const syntax::TokenList tokens = syntax::lex(c.sources, source, c.diagnostics);
   const syntax::SyntaxTree tree = syntax::parse(c.sources, source, tokens, c.symbols, c.diagnostics);
   if (!c.diagnostics.full()) resolve::resolve(tree, c.sources, c.symbols, options, c.diagnostics);
+}
+
+// What is said of the scene in a file.
+inline void run_case(const std::string& path, Case& c) {
+  std::ifstream file(path, std::ios::binary);
+  run_text(path, {std::istreambuf_iterator<char>(file), {}}, c);
 }
 
 // Everything that a message says.

@@ -94,6 +94,7 @@ struct Message {
 const std::map<std::string, std::string> written_elsewhere{
     {"no_parameter(name, keyword)", "no parameter '{}' in '{}'"},
     {"no_parameter(name, keyword_)", "no parameter '{}' in '{}'"},
+    {"no_parameter(symbols_.text(given.item->name.symbol), keyword_)", "no parameter '{}' in '{}'"},
     {"message", "expected '{{' after {}, found {}"},
     {"std::string(mistake.message)", ""},   // rows of a table, read as such
     {"std::string(message) + places", ""},  // habits, read where they are reported
@@ -184,10 +185,17 @@ std::regex pattern(const std::string& text) {
 
 // What no single scene text can bring about, and where it is tested instead.
 const std::set<std::string> not_from_a_scene{
-    "files included more than {} deep",  // wants as many files: tests/resolve/limits_test.cpp
-    "a list of more than {} entries",    // wants as many entries: the same
-    "it is larger than {} MB",           // wants such a file: the same
-    "pictures cannot be read here",      // wants a run without a reader of files
+    "files included more than {} deep",                // wants as many files: tests/resolve/limits_test.cpp
+    "a list of more than {} entries",                  // wants as many entries: the same
+    "it is larger than {} MB",                         // wants such a file: the same
+    "more than {} words and marks",                    // wants as many words: tests/syntax/lexer_test.cpp
+    "more than {} points of curves",                   // wants as many entries: tests/resolve/limits_test.cpp
+    "there is not enough memory for what this makes",  // wants a small machine: tests/cli/memory_test.cpp
+    "--frame {} is outside of these frames, {} to {}",  // wants an option: tests/cli/commands_test.cpp
+    "moves too unevenly while the shutter is open: between {} moments it is off its way by up to {:.2g} "
+    "times "
+    "what would be seen",            // takes seconds: tests/resolve/motion_test.cpp
+    "pictures cannot be read here",  // wants a run without a reader of files
 };
 
 TEST(Messages, AreEachProvokedByACase) {

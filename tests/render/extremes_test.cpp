@@ -70,7 +70,9 @@ TEST(Extremes, LongIntervalsWithSmallStepsAreWidenedAndTold) {
   b.environment(1);
   const compile::CompiledScene world = compile::compile(b.scene);
   const render::RenderResult result = render::render(world, {});
-  EXPECT_EQ(result.statistics.widened_marches, 4u);
+  EXPECT_EQ(result.statistics.widened_steps.rays, 4u);
+  EXPECT_EQ(result.statistics.widened_steps.asked, 1e-3);
+  EXPECT_DOUBLE_EQ(result.statistics.widened_steps.reached, 1e5 / 4096);
   EXPECT_NEAR(result.film.mean(0, 0).x, std::exp(-1.0), 1e-5);
 }
 
@@ -131,10 +133,9 @@ TEST_P(BadShader, IsClampedCountedAndNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Extremes, BadShader,
-                         testing::Values(Misbehaviour{"NaN", NAN, render::BadValue::Kind::not_finite},
-                                         Misbehaviour{"Infinity", INFINITY,
-                                                      render::BadValue::Kind::not_finite},
-                                         Misbehaviour{"Negative", -2, render::BadValue::Kind::negative}),
+                         testing::Values(Misbehaviour{"NaN", NAN, render::BadValue::Kind::undefined},
+                                         Misbehaviour{"Infinity", INFINITY, render::BadValue::Kind::above},
+                                         Misbehaviour{"Negative", -2, render::BadValue::Kind::below}),
                          [](const auto& named) { return named.param.name; });
 
 }  // namespace

@@ -50,5 +50,29 @@ TEST(Film, AveragesItsSamples) {
   EXPECT_EQ(film.image().at(1, 0, 2), 2.0f);
 }
 
+// A part of a picture holds its own pixels alone, under the names that they have in the whole.
+TEST(Film, IsAWindowOfThePicture) {
+  AovSet aovs;
+  aovs.add(Aov::depth);
+  aovs.add(Aov::samples);
+  Film film(16384, 16384, 1, aovs, PixelWindow{16380, 8000, 16384, 8003});
+  film.add(16383, 8001, {1, 2, 3});
+  AovSample sample;
+  sample.met_surface = true;
+  sample.depth = 5;
+  film.add(16383, 8001, sample);
+  EXPECT_EQ(film.mean(16383, 8001), Rgb(1, 2, 3));
+  EXPECT_EQ(film.pixels_without_samples(), 11u);
+  const image::Image image = film.image();
+  EXPECT_EQ(image.width, 4);
+  EXPECT_EQ(image.height, 3);
+  EXPECT_EQ(image.at(3, 1, 2), 3.0f);
+  EXPECT_EQ(image.at(3, 1, 3), 5.0f);
+  EXPECT_EQ(image.at(3, 1, 4), 1.0f);
+  EXPECT_EQ(image.place.x, 16380);
+  EXPECT_EQ(image.place.y, 8000);
+  EXPECT_EQ(image.place.whole_width, 16384);
+}
+
 }  // namespace
 }  // namespace tyndall::render

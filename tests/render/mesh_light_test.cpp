@@ -72,7 +72,7 @@ TEST(GlowingShapes, AreTheSameWhicheverWayTheyAreFound) {
       material.program = *builder.finish(outputs);
       material.base_color = {0, 0, 0};
       material.emission = scene::RgbOutputs{1, 2, 3};
-      material.output_spans.resize(4);
+      material.given.resize(4);
       const compile::CompiledScene a = compile::compile(sampled.scene), b = compile::compile(met.scene);
       EXPECT_EQ(a.lights.size(), 1u);
       EXPECT_EQ(b.lights.size(), 0u);

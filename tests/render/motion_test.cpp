@@ -156,6 +156,44 @@ TEST(Motion, LightsAreMetWhereTheyAreDrawn) {
   }
 }
 
+// A fan that turns so many whole times is the even ring that a quarter of its turns would make, however many.
+TEST(Motion, ManyTurnsMakeAnEvenRing) {
+  for (const int turns : {1, 16, 32}) {
+    const scene::Scene scene = scene_of(
+        "animation { fps: 1  frames: 0..1  shutter: 360deg }\nrender { resolution: (16, 16)  samples: 128 }\n"
+        "camera orthographic { from: (0, 0, 5)  to: (0, 0, 0)  height: 4 }\n"
+        "quad { center: (1, 0, 0)  u: (0.3, 0, 0)  v: (0, 0.1, 0)  material: { base_color = 0  emission = 1 "
+        "}  "
+        "transform: rotate_z(360deg * " +
+        std::to_string(turns) + " * time) }\n");
+    const support::Measurement m = support::measure(scene);
+    const double mean = 0.6 * 0.2 / 16;
+    support::expect_truth(m.whole(), mean, 0, 0.02, "ring");
+    for (const int x : {0, 8})
+      for (const int y : {0, 8})
+        support::expect_truth(m.region(x, y, x + 8, y + 8), mean, 0, 0.05, "quarter of the ring");
+    // The corners of the view's middle cross and its diagonals: a bow tie would be bright in one pair alone.
+    support::expect_same(m.region(12, 6, 14, 10), m.region(6, 12, 10, 14), 0, 0.2, "right and below");
+  }
+}
+
+// A ball that turns about its own middle is one that stands still.
+TEST(Motion, TurningDoesNotShrink) {
+  const auto ball = [](const std::string& transform) {
+    return film_of(scene_of("animation { fps: 1  frames: 0..1  shutter: 360deg }\n" + settings + view +
+                            "sphere { transform: " + transform +
+                            "  radius: 0.8  material: { base_color = 0  emission = 1 } }\n"));
+  };
+  const Film still = ball("rotate_y(0deg)");
+  for (const char* turn : {"rotate_y(2000deg * time)", "rotate_x(5760deg * time) * scale((-1, 1, 1))"}) {
+    const Film turning = ball(turn);
+    int differ = 0;
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) differ += std::abs(turning.mean(x, y)[0] - still.mean(x, y)[0]) > 1e-6;
+    EXPECT_LE(differ, 1) << turn;
+  }
+}
+
 // A thousand kilometres a second, a hundred turns, a shape that is flat for a moment.
 TEST(Motion, IsSafeAtItsExtremes) {
   for (const char* thing :

@@ -24,7 +24,8 @@ TEST(SimdClasses, RenderTheSamePictureToTheBit) {
   builder.volume(scene::Sphere{{}, 1.2}, builder.shader(colors, [](const Point& p) {
     vm::Builder& b = *p.x.builder;
     const auto noise = [&](vm::Op op) {
-      return Expression{&b, b.emit(op, {p.x.node, p.y.node, p.z.node}, {}, vm::op_info(op).octaves ? 4 : 0)};
+      return Expression{&b, b.emit(op, {p.x.node, p.y.node, p.z.node}, {},
+                                   vm::op_info(op).has(vm::OpTrait::octaves) ? 4 : 0)};
     };
     const Expression bumps = noise(vm::Op::fbm3) + exp(noise(vm::Op::cells3)) * cos(p.x * 7.f);
     // One branch costs enough to be guarded.

@@ -99,5 +99,62 @@ TEST(Include, TooDeepIsAnError) {
   EXPECT_NE(r.messages().find("more than 64 deep"), std::string::npos) << r.messages();
 }
 
+// A scene is at home in its folder and in those of --include, links followed.
+TEST(Include, OfWhatLiesOutsideNeedsLeave) {
+  const Folder folder("outside");
+  folder.write("scene/inside.tyn", "sphere { radius: 1 }");
+  folder.write("library/lamp.tyn", "sphere { radius: 2 }");
+  folder.write("secret.tyn", "sphere { radius: 3 }");
+  fs::create_symlink(folder.path("secret.tyn"), folder.path("scene/link.tyn"));
+  fs::create_directory_symlink(folder.path("library"), folder.path("scene/books"));
+  struct Case {
+    std::string name;
+    bool with_library, is_inside;
+  };
+  const Case cases[] = {{"inside.tyn", false, true},
+                        {"../scene/inside.tyn", false, true},
+                        {"../library/lamp.tyn", false, false},
+                        {"../library/lamp.tyn", true, true},
+                        {"books/lamp.tyn", false, false},
+                        {"books/lamp.tyn", true, true},
+                        {"lamp.tyn", true, true},
+                        {"../secret.tyn", true, false},
+                        {"link.tyn", true, false},
+                        {folder.path("secret.tyn"), true, false},
+                        {"../not_there.tyn", false, false}};
+  for (const Case& c : cases)
+    for (const bool allowed : {false, true}) {
+      resolve::Options options;
+      if (c.with_library) options.include_directories = {folder.path("library")};
+      options.allow_outside = allowed;
+      const Resolved r = resolve_text(camera_and_light + "include \"" + c.name + "\"", options,
+                                      folder.path("scene/main.tyn"));
+      const std::string messages = r.messages();
+      if (c.is_inside || (allowed && c.name != "../not_there.tyn"))
+        EXPECT_TRUE(messages.empty() && r.scene.shapes.size() == 1) << c.name << "\n" << messages;
+      else
+        EXPECT_NE(messages.find(allowed ? "no file" : "is outside of the scene's folder"), std::string::npos)
+            << c.name << "\n"
+            << messages;
+    }
+}
+
+// Messages about it would show what is in it.
+TEST(Include, OfWhatIsNoSceneShowsNothingOfIt) {
+  const Folder folder("secrets");
+  for (const std::string name : {"shadow", "shadow.txt", "notes.tyn.bak"}) {
+    folder.write(name, "root:$6$salt$hash:19000:0:99999:7:::\nalice:password\n");
+    const Resolved r =
+        resolve_text(camera_and_light + "include \"" + name + "\"", {}, folder.path("main.tyn"));
+    ASSERT_EQ(r.diagnostics.error_count(), 1) << r.messages();
+    EXPECT_NE(r.messages().find("is not a scene"), std::string::npos) << r.messages();
+    for (const char* secret : {"root", "hash", "salt", "alice", "password"})
+      EXPECT_EQ(r.messages().find(secret), std::string::npos) << r.messages();
+  }
+  folder.write("good.inc", "sphere { radius: 1 }");
+  EXPECT_EQ(resolve_text(camera_and_light + "include \"good.inc\"", {}, folder.path("main.tyn")).messages(),
+            "");
+}
+
 }  // namespace
 }  // namespace tyndall

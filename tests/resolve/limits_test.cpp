@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
+#include <vector>
 
 #include "resolved.h"
 
@@ -71,6 +73,26 @@ std::string many_loops(std::int64_t n, std::int64_t each, const char* form) {
   return fmt::format(fmt::runtime(form), loops);
 }
 
+// Objects of two each, and of them what makes `n` things in all.
+std::string placed_things(std::int64_t n, const fs::path&) {
+  std::string text = "object o0 { sphere { } }\n", places;
+  std::vector<std::int64_t> brings{1};
+  while (2 * brings.back() + 1 <= n) {
+    text += fmt::format("object o{0} {{ place o{1} {{ }} place o{1} {{ }} }}\n", brings.size(),
+                        brings.size() - 1);
+    brings.push_back(2 * brings.back() + 1);
+  }
+  for (std::size_t i = brings.size(); i-- > 0;)
+    for (; brings[i] <= n; n -= brings[i]) places += fmt::format("place o{} {{ }}\n", i);
+  return text + places;
+}
+
+std::string nested_lists(std::int64_t n, const fs::path&) {
+  std::string text = "let l1 = [0]\n";
+  for (std::int64_t i = 2; i < n; ++i) text += fmt::format("let l{} = [l{}]\n", i, i - 1);
+  return text + fmt::format("let _l = [l{}]\n", n - 1);
+}
+
 const std::map<std::string_view, Maker>& makers() {
   static const std::map<std::string_view, Maker> table{
       {"file size", file_of_size},
@@ -84,6 +106,17 @@ const std::map<std::string_view, Maker>& makers() {
        [](auto n, auto&) { return fmt::format("def t(i) {{ if i < {} {{ t(i + 1) }} }} t(1)", n); }},
       {"block depth", blocks},
       {"repetitions", [](auto n, auto&) { return fmt::format("for _i in 1..{} {{ }}", n); }},
+      {"placed things", placed_things},
+      {"placed lights",
+       [](auto n, auto&) {
+         return fmt::format(
+             "object a {{ light point {{ position: (0, 1, 0) power: 1 }} }} for _i in 1..{} {{ place a {{ }} "
+             "}}",
+             n);
+       }},
+      {"string length", [](auto n, auto&) { return "let _a = \"" + repeated("a", n) + "\""; }},
+      {"list depth", nested_lists},
+      {"light samples", [](auto n, auto&) { return fmt::format("render {{ light_samples: {} }}", n); }},
       {"call depth", calls},
       {"function rounds",
        [](auto n, auto&) {
@@ -136,12 +169,16 @@ TEST_P(Limits, AreMetAndNotPassed) {
   }
 }
 
-// Two are met elsewhere: how deep evaluation goes depends on what is evaluated (tests/eval/error_test.cpp),
-// and how many errors are shown is no limit of scenes (tests/base/diagnostics_test.cpp).
+// Some are met elsewhere: how deep evaluation goes depends on what is evaluated (tests/eval/error_test.cpp),
+// how many errors are shown is no limit of scenes (tests/base/diagnostics_test.cpp), and as many words as a
+// file may have, or pictures, take a gigabyte (tests/syntax/lexer_test.cpp, tests/image/windows_test.cpp).
 std::vector<resolve::Limit> limits_of_scenes() {
+  constexpr std::string_view elsewhere[] = {"evaluation depth", "errors told", "words", "pictures",
+                                            "curve points"};
   std::vector<resolve::Limit> list;
   for (const resolve::Limit& limit : resolve::limits())
-    if (limit.name != "evaluation depth" && limit.name != "errors told") list.push_back(limit);
+    if (std::find(std::begin(elsewhere), std::end(elsewhere), limit.name) == std::end(elsewhere))
+      list.push_back(limit);
   return list;
 }
 
@@ -150,6 +187,59 @@ INSTANTIATE_TEST_SUITE_P(Language, Limits, testing::ValuesIn(limits_of_scenes())
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 });
+
+// `n` lines of a form, each with its number and the one before.
+std::string lines(std::string_view form, int n) {
+  std::string text;
+  for (int i = 1; i <= n; ++i) text += fmt::format(fmt::runtime(form), i, i - 1);
+  return text;
+}
+
+TEST(Floods, ObjectsThatDoubleAreCountedBeforeTheyAreWrittenOut) {
+  const std::pair<std::string_view, std::string_view> cases[] = {
+      {"sphere { }", "more than 10000000 things placed by objects"},
+      {"volume { in: sphere { } medium: { density = 1 albedo = 1 } }",
+       "more than 10000000 things placed by objects"},
+      {"light point { position: (0, 0, 0) power: 1 }", "more than 1000000 lights placed by objects"}};
+  for (const auto& [in, message] : cases) {
+    const std::string text = fmt::format("object o0 {{ {} }}\n", in) +
+                             lines("object o{0} {{ place o{1} {{ }} place o{1} {{ }} }}\n", 60) +
+                             "place o60 { }\n";
+    const Resolved r = resolve_text(camera_and_light + text);
+    ASSERT_EQ(r.diagnostics.error_count(), 1) << r.messages();
+    const Diagnostic& d = r.diagnostics.all()[0];
+    EXPECT_EQ(d.message, message);
+    EXPECT_TRUE(r.sources.text(d.span).size() == 3) << r.messages();
+  }
+}
+
+// What holds itself many times over is gone through once, whatever is done with it.
+TEST(Floods, ListsOfListsCostWhatTheyAreWrittenWith) {
+  const std::string doubled = lines("let a{0} = [a{1}, a{1}, a{1}, a{1}, a{1}, a{1}, a{1}, a{1}]\n", 100);
+  const std::string in_bodies =
+      "material m() { base_color = 0.1 * length(a100) }\nsphere { material: m() }\n";
+  resolve_clean("let a0 = [1]\n" + doubled + in_bodies);
+  resolve_clean("def a0(x) = x\n" + doubled + in_bodies);
+  const Resolved r = resolve_text(camera_and_light + "let a0 = [1]\n" + doubled + "let _s = \"{a100}\"\n");
+  ASSERT_EQ(r.diagnostics.error_count(), 1) << r.messages();
+  EXPECT_EQ(r.diagnostics.all()[0].message, "a string of more than 65536 bytes");
+}
+
+TEST(Floods, StringsThatGrowTenfold) {
+  const Resolved r = resolve_text(
+      camera_and_light + "let s0 = \"xxxxxxxxxx\"\n" +
+      lines("let s{0} = \"{{s{1}}}{{s{1}}}{{s{1}}}{{s{1}}}{{s{1}}}{{s{1}}}\"\n", 12) + "let _a = s12\n");
+  ASSERT_EQ(r.diagnostics.error_count(), 1) << r.messages();
+  EXPECT_EQ(r.diagnostics.all()[0].message, "a string of more than 65536 bytes");
+  EXPECT_EQ(r.sources[r.diagnostics.all()[0].span.source].locate(r.diagnostics.all()[0].span.begin).line, 7u);
+}
+
+TEST(Floods, StrandsOfTheSamePointsAreCountedBeforeTheyAreCopied) {
+  const Resolved r = resolve_text(camera_and_light + "let a = [" + repeated("(0, 0, 0), ", 10'000) +
+                                  "]\ncurves { points: [" + repeated("a, ", 10'000) + "] radius: 1 }\n");
+  ASSERT_EQ(r.diagnostics.error_count(), 1) << r.messages().substr(0, 1000);
+  EXPECT_EQ(r.diagnostics.all()[0].message, "more than 10000000 points of curves");
+}
 
 }  // namespace
 }  // namespace tyndall

@@ -40,7 +40,7 @@ TEST(Material, ReadsEveryInput) {
   EXPECT_EQ(rgb(outputs, material->base_color), Rgb(0.375f, 0.625f, 0.875f));
   ASSERT_TRUE(material->emission);
   EXPECT_EQ(rgb(outputs, *material->emission), Rgb(0.125f, 2, 3));
-  EXPECT_EQ(material->output_spans.size(), outputs.size());
+  EXPECT_EQ(material->given.size(), outputs.size());
 }
 
 TEST(Material, DefaultsToGrey) {

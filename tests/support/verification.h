@@ -19,6 +19,7 @@ struct VerificationRow {
   double truth = 0;
   double allowance = 0;  // digits of the truth, and a bias stated beforehand
   std::function<Estimate()> run;
+  double power = 0.03;  // the standard error that the row must have at most, in shares of the truth
 };
 
 struct Verified {
@@ -31,7 +32,7 @@ inline Verified verify(const VerificationRow& row) {
   Verified out{row.run(), false};
   const double error = out.estimate.standard_error.y;
   out.passed = std::abs(out.estimate.mean.y - row.truth) <= 4 * error + row.allowance &&
-               error <= 0.03 * std::abs(row.truth) + 1e-12;
+               error <= row.power * std::abs(row.truth) + 1e-12;
   return out;
 }
 
@@ -67,10 +68,14 @@ inline std::vector<Way> flights() { return ways_of({"Product", "Stochastic", "Tr
 
 // A row of a rendered scene's mean.
 inline VerificationRow scene_row(std::string table, std::string row, const Way& way, double truth,
-                                 double allowance, const SceneBuilder& builder) {
-  return {std::move(table), std::move(row),
-          way.name,         truth,
-          allowance,        [scene = builder.scene, way] { return estimate_scene(scene, way.options()); }};
+                                 double allowance, const SceneBuilder& builder, double power = 0.03) {
+  return {std::move(table),
+          std::move(row),
+          way.name,
+          truth,
+          allowance,
+          [scene = builder.scene, way] { return estimate_scene(scene, way.options()); },
+          power};
 }
 
 }  // namespace tyndall::support

@@ -14,7 +14,7 @@ inline void add_sphere_rows(std::vector<VerificationRow>& rows) {
       builder.image(16, 16, 64);
       rows.push_back(scene_row("Sphere in a white environment",
                                "tau_r " + short_number(row.tau) + " c " + short_number(row.albedo), way,
-                               white_sphere_square(row), 5e-6, builder));
+                               white_sphere_square(row), 5e-6, builder, 0.005));
     }
 }
 
@@ -28,7 +28,7 @@ inline void add_airlight_rows(std::vector<VerificationRow>& rows) {
         add("Airlight",
             "sigma_t " + short_number(row.sigma_t) + " D " + short_number(row.D) + " g " +
                 short_number(static_cast<double>(airlight_g[i])),
-            way, row.radiance[i], 1e-8 * row.radiance[i], builder);
+            way, row.radiance[i], 1e-8 * row.radiance[i], builder, 0.02);
       }
   // Where fog takes nothing away, equi-angular sampling has no variance. The truth is that of scattering
   // alone; 10 m of fog take away 1e-5 of it at most.

@@ -115,9 +115,11 @@ TEST(Lexer, LettersJoinedToANumberAreWhollyAUnit) {
   EXPECT_EQ(
       errors("2e"),
       "1:2 'e' is not a unit [the units are deg rad mm cm km ms m s K %; a product is written with '*']\n");
-  EXPECT_EQ(errors("30degs"), "1:3 'degs' is not a unit [did you mean 'deg'?]\n");
+  EXPECT_EQ(errors("30degs"), "1:3 'degs' is not a unit [write 30deg]\n");
+  EXPECT_EQ(errors("0x10"), "1:2 'x10' is not a unit [numbers are decimal]\n");
+  EXPECT_EQ(errors("0xff8000"), "1:2 'xff8000' is not a unit [a colour is written #ff8000]\n");
   EXPECT_EQ(
-      errors("0x10"),
+      errors("3x10"),
       "1:2 'x10' is not a unit [the units are deg rad mm cm km ms m s K %; a product is written with '*']\n");
   EXPECT_EQ(errors("1_000"),
             "1:2 '_000' is not a unit [the units are deg rad mm cm km ms m s K %; a product is written with "
@@ -252,6 +254,44 @@ TEST(Lexer, CommentsAreText) {
             "1:14 these bytes are not UTF-8 text [save the file as UTF-8]\n");
   EXPECT_EQ(Reading("/*\n\x01 */").brief(),
             "2:1 a control character or NUL byte [remove it: scenes are plain text]\n");
+}
+
+// LF, CR LF and CR alone end lines, and what goes to the end of a line.
+TEST(Lexer, LinesEndInThreeWays) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    EXPECT_EQ(words("// a" + end + "b // c" + end + "d"), "b d");
+    EXPECT_EQ(errors("a" + end + end + " \xff\xfe"),
+              "3:2 these bytes are not UTF-8 text [save the file as UTF-8]\n");
+    EXPECT_EQ(errors("a = \"b" + end + "c"),
+              "1:5 this string is never closed [close it with '\"' on the same line]\n");
+  }
+}
+
+TEST(Lexer, AFileHasABound) {
+  Sources sources;
+  const SourceId source = sources.add("a.tyn", "a b c\nd e");
+  for (const std::size_t most : {4, 5}) {
+    Diagnostics diagnostics;
+    const TokenList tokens = lex(sources, source, diagnostics, most);
+    ASSERT_EQ(diagnostics.error_count(), most == 4 ? 1 : 0);
+    EXPECT_EQ(tokens.tokens.back().kind, TokenKind::end_of_file);
+    if (most == 4) {
+      EXPECT_EQ(diagnostics.all()[0].message, "more than 4 words and marks");
+      EXPECT_EQ(sources[source].locate(diagnostics.all()[0].span.begin).line, 2u);
+    }
+  }
+}
+
+// However many brackets are never closed, few of them become tokens.
+TEST(Lexer, BracketsPastAllBoundsEndTheReading) {
+  for (const std::string open : {"(", "[", "{", "\"{"}) {
+    std::string text;
+    for (int i = 0; i < 100'000; ++i) text += open;
+    Sources sources;
+    const SourceId source = sources.add("a.tyn", text);
+    Diagnostics diagnostics;
+    EXPECT_LT(lex(sources, source, diagnostics).tokens.size(), 40'000u);
+  }
 }
 
 }  // namespace

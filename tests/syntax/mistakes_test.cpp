@@ -76,7 +76,7 @@ TEST(Mistakes, ItemsBeginWithAWord) {
             "1:6 expected a statement, found '=' [a function or template is defined with def f(…)]\n");
   EXPECT_EQ(
       brief("foo"),
-      "1:4 'foo' does nothing here: expected '{', '(', ':' or '=' after it, found the end of the file\n");
+      "1:1 'foo' does nothing here: expected '{', '(', ':' or '=' after it, found the end of the file\n");
   EXPECT_EQ(brief("f(x).y"), "1:1 this value is not used [give it a name with 'let']\n");
 }
 

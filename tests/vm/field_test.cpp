@@ -55,8 +55,8 @@ TEST(Fields, HaveZeroMeanAndStayAboutWithinOne) {
   const auto points = random_points(count, 3000, 11);
   for (const Op op : one_value_fields) {
     for (const std::uint8_t octaves : {std::uint8_t{1}, std::uint8_t{5}}) {
-      if (!op_info(op).octaves && octaves != 1) continue;
-      Field field(op, op_info(op).octaves ? octaves : std::uint8_t{0}, 3);
+      if (!op_info(op).has(OpTrait::octaves) && octaves != 1) continue;
+      Field field(op, op_info(op).has(OpTrait::octaves) ? octaves : std::uint8_t{0}, 3);
       const Statistics s(field.at(points));
       // Five standard errors of independent points, and the last digit of the measured means.
       EXPECT_LE(std::fabs(s.mean), 5 * s.deviation / std::sqrt(static_cast<double>(count)) + 1e-4)
@@ -156,7 +156,7 @@ TEST(Fields, LargeCoordinatesGiveFiniteNumbersAndNaNsGiveNaN) {
                                                     {0, -inf, 0, 0},  {0, 0, std::nanf(""), 0}};
   for (const Op op : {Op::noise3, Op::noise4, Op::fbm3, Op::fbm4, Op::ridged3, Op::curl3_x}) {
     const std::vector<float> values =
-        Field(op, op_info(op).octaves ? std::uint8_t{8} : std::uint8_t{0}).at(points);
+        Field(op, op_info(op).has(OpTrait::octaves) ? std::uint8_t{8} : std::uint8_t{0}).at(points);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(std::fabs(values[i]), 4) << op_info(op).name << ' ' << i;
     for (std::size_t i = 3; i < points.size(); ++i)
       EXPECT_TRUE(std::isnan(values[i])) << op_info(op).name << ' ' << i;

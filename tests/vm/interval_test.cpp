@@ -78,11 +78,11 @@ TEST(Intervals, HoldWhatEveryOperationGivesInRandomBoxes) {
     for (const Op op : all_ops()) {
       RandomBoxes boxes(static_cast<unsigned>(op) + 1);
       const auto operands = static_cast<std::size_t>(op_info(op).operands);
-      const bool heavy = op >= Op::noise3 && op <= Op::curl4_z;
+      const bool heavy = op_info(op).has(OpTrait::seed);
       for (int i = 0; i < (heavy ? 1500 : 6000); ++i) {
         std::array<ValueBounds, 4> box;
         for (ValueBounds& b : box) b = boxes.interval();
-        const auto octaves = static_cast<std::uint8_t>(op_info(op).octaves ? 1 + i % 6 : 0);
+        const auto octaves = static_cast<std::uint8_t>(op_info(op).has(OpTrait::octaves) ? 1 + i % 6 : 0);
         const ValueBounds bounds = evaluate_bounds(op, std::span(box).first(operands), octaves, seed_of(op));
         ASSERT_FALSE(std::isnan(bounds.lo) || std::isnan(bounds.hi)) << op_info(op).name;
         ASSERT_TRUE(bounds.hi - bounds.lo < inf || bounds.may_be_nan) << op_info(op).name;
@@ -115,6 +115,7 @@ TEST(Intervals, AreTightInSmallBoxes) {
       {Op::smoothstep, {at(1), at(0.4f), around(0.7f, 0.03f)}, 0.151f},  // slope 1.5 / 0.6
       {Op::mix, {at(1), at(2), around(0.5f, 0.1f)}, 0.2001f},
       {Op::clamp, {around(2, 0.5f), at(0), at(1)}, 0},
+      {Op::limit, {ValueBounds{-inf, inf, true}, at(0), at(1)}, 1},
       {Op::pow, {around(0.5f, 0.1f), at(2)}, 0.2001f},
       {Op::length3, {around(1, 0.01f), around(2, 0.01f), around(2, 0.01f)}, 0.0334f},
       {Op::mul, {around(-1, 0.1f), around(2, 0.1f)}, 0.61f},
@@ -131,7 +132,7 @@ TEST(Intervals, AreTightInSmallBoxes) {
   for (const Case& c : cases) {
     const auto operands = static_cast<std::size_t>(op_info(c.op).operands);
     const ValueBounds b =
-        evaluate_bounds(c.op, std::span(c.box).first(operands), op_info(c.op).octaves ? 5 : 0);
+        evaluate_bounds(c.op, std::span(c.box).first(operands), op_info(c.op).has(OpTrait::octaves) ? 5 : 0);
     EXPECT_LE(b.hi - b.lo, c.width) << op_info(c.op).name << " in [" << b.lo << ", " << b.hi << "]";
     EXPECT_FALSE(b.may_be_nan) << op_info(c.op).name;
   }

@@ -56,6 +56,14 @@ TEST(Kernels, NaNGoesThroughMinMaxAndClampFromEitherSide) {
   EXPECT_EQ(lane(Op::clamp, -3, 0, 1), 0);
 }
 
+TEST(Kernels, LimitTakesNaNForZero) {
+  EXPECT_EQ(evaluate_lane(Op::limit, std::array{nan_f, -1.0f, 1.0f}), 0);
+  EXPECT_EQ(evaluate_lane(Op::limit, std::array{nan_f, 2.0f, 3.0f}), 2);
+  EXPECT_EQ(lane(Op::limit, inf, 0, 1), 1);
+  EXPECT_EQ(lane(Op::limit, -3, 0, 1), 0);
+  EXPECT_EQ(lane(Op::limit, 0.25f, 0, 1), 0.25f);
+}
+
 TEST(Kernels, ComparisonsWithNaNAreFalse) {
   for (const Op op : {Op::less, Op::less_equal, Op::equal, Op::not_equal})
     for (const auto& [a, b] : {std::pair{nan_f, 1.0f}, {1.0f, nan_f}, {nan_f, nan_f}})

@@ -97,7 +97,7 @@ TEST(Evaluate, DoubleAndFloatMeanTheSame) {
       const std::array<double, 4> b = {a[0], a[1], a[2], a[3]};
       const double exact = evaluate(op, std::span(b).first(operands), octaves_of(op), seed_of(op));
       const float lane = evaluate_lane(op, std::span(a).first(operands), octaves_of(op), seed_of(op));
-      const double tolerance = op_info(op).float_only ? 0 : 4e-6 * (1 + std::fabs(exact));
+      const double tolerance = op_info(op).has(OpTrait::float_only) ? 0 : 4e-6 * (1 + std::fabs(exact));
       ASSERT_NEAR(exact, lane, tolerance) << op_info(op).name << ' ' << a[0] << ' ' << a[1] << ' ' << a[2];
     }
   }

@@ -17,18 +17,18 @@ inline std::vector<NodeId> random_graph(Builder& builder, unsigned seed, std::si
                                                : static_cast<float>(random() % 1000) * 0.01f - 5));
   const std::size_t operations = 5 + random() % (most - 4);
   for (std::size_t i = 0; i < operations; ++i) {
-    const Op op = static_cast<Op>(random() % static_cast<unsigned>(op_count()));
-    if (op_info(op).plane) continue;
+    const Op op = static_cast<Op>(random() % static_cast<unsigned>(op_count));
+    if (op_info(op).has(OpTrait::plane)) continue;
     std::array<NodeId, 4> operands;
     // The last values more often than the first: deep graphs, with constants and inputs among them.
     for (NodeId& operand : operands)
       operand = random() % 2 == 0
                     ? values[random() % values.size()]
                     : values[values.size() - 1 - random() % std::min<std::size_t>(values.size(), 6)];
-    const auto octaves = static_cast<std::uint8_t>(op_info(op).octaves ? 1 + random() % 3 : 0);
-    values.push_back(
-        builder.emit(op, std::span(operands).first(static_cast<std::size_t>(op_info(op).operands)), {},
-                     octaves, op_info(op).seed ? static_cast<std::uint32_t>(random() % 100) : 0));
+    const auto octaves = static_cast<std::uint8_t>(op_info(op).has(OpTrait::octaves) ? 1 + random() % 3 : 0);
+    values.push_back(builder.emit(
+        op, std::span(operands).first(static_cast<std::size_t>(op_info(op).operands)), {}, octaves,
+        op_info(op).has(OpTrait::seed) ? static_cast<std::uint32_t>(random() % 100) : 0));
   }
   std::vector<NodeId> outputs;
   for (std::size_t i = 0; i < 3; ++i) outputs.push_back(values[values.size() - 1 - random() % 8]);

@@ -29,14 +29,14 @@ inline bool same(float a, float b) {
 // But for lookups in planes, which need one: plane_test.cpp.
 inline std::vector<Op> all_ops() {
   std::vector<Op> ops;
-  for (int i = 0; i < op_count(); ++i)
-    if (!op_info(static_cast<Op>(i)).plane) ops.push_back(static_cast<Op>(i));
+  for (int i = 0; i < op_count; ++i)
+    if (!op_info(static_cast<Op>(i)).has(OpTrait::plane)) ops.push_back(static_cast<Op>(i));
   return ops;
 }
 
 inline constexpr std::uint32_t test_seed = 17;
-inline std::uint8_t octaves_of(Op op) { return op_info(op).octaves ? 3 : 0; }
-inline std::uint32_t seed_of(Op op) { return op_info(op).seed ? test_seed : 0; }
+inline std::uint8_t octaves_of(Op op) { return op_info(op).has(OpTrait::octaves) ? 3 : 0; }
+inline std::uint32_t seed_of(Op op) { return op_info(op).has(OpTrait::seed) ? test_seed : 0; }
 
 inline const std::vector<float>& awkward_numbers() {
   constexpr float inf = std::numeric_limits<float>::infinity();

@@ -38,7 +38,7 @@ TEST(Verify, FindsWhatIsBroken) {
       {"div with 1 octaves", [](Program& p) { p.lane_code[1].count = 1; }},
       {"takes no seed", [](Program& p) { p.lane_code[1].immediate = 1; }},
       {"is not zero", [](Program& p) { p.lane_code[1].operands[3] = 1; }},
-      {"unknown operation", [](Program& p) { p.lane_code[1].op = static_cast<Op>(op_count()); }},
+      {"unknown operation", [](Program& p) { p.lane_code[1].op = static_cast<Op>(op_count); }},
       {"occurs twice", [](Program& p) { p.inputs[1] = p.inputs[0]; }},
       {"unknown input", [](Program& p) { p.inputs[1] = static_cast<Input>(input_count); }},
       {"span", [](Program& p) { p.lane_spans.pop_back(); }},

@@ -6,6 +6,7 @@
 #define TYNDALL_VM_KERNELS_BLACKBODY_INL_H_
 #endif
 
+#include "base/interval.h"
 #include "vm/blackbody.h"
 #include "vm/kernels/arithmetic-inl.h"
 
@@ -28,6 +29,29 @@ TYNDALL_VM_INLINE V blackbody_component(V kelvin, const float* table) {
 TYNDALL_VM_KERNEL1(blackbody_r) { return blackbody_component(a, blackbody_table().red.data()); }
 TYNDALL_VM_KERNEL1(blackbody_g) { return blackbody_component(a, blackbody_table().green.data()); }
 TYNDALL_VM_KERNEL1(blackbody_b) { return blackbody_component(a, blackbody_table().blue.data()); }
+
+// Between two temperatures the component's two ends, while both lie between the same entries of the table,
+// where the kernel is a straight line; otherwise the whole table's extremes.
+template <class V>
+TYNDALL_VM_INLINE Bound<V> blackbody_bound(Bound<V> kelvin, const float* table, Interval<float> range) {
+  const auto place = [&](V k) HWY_ATTR {
+    return floor(V(blackbody_coolest * (blackbody_entries - 1)) / greater(k, V(blackbody_coolest)));
+  };
+  const V p = blackbody_component(kelvin.lo, table), q = blackbody_component(kelvin.hi, table);
+  const auto one_line = both(place(kelvin.lo) == place(kelvin.hi), is_bounded(kelvin));
+  const Bound<V> result = {select(one_line, lesser(p, q), V(range.lo)),
+                           select(one_line, greater(p, q), V(range.hi)), kelvin.nan};
+  return widened(result, kernel_error, least_float);
+}
+TYNDALL_VM_BOUND1(blackbody_r) {
+  return blackbody_bound(a, blackbody_table().red.data(), blackbody_table().red_range);
+}
+TYNDALL_VM_BOUND1(blackbody_g) {
+  return blackbody_bound(a, blackbody_table().green.data(), blackbody_table().green_range);
+}
+TYNDALL_VM_BOUND1(blackbody_b) {
+  return blackbody_bound(a, blackbody_table().blue.data(), blackbody_table().blue_range);
+}
 
 }  // namespace tyndall::vm::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

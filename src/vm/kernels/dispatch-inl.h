@@ -1,4 +1,4 @@
-// From an operation to its kernel.
+// From an operation to its kernels: of lanes, and of intervals of them.
 #if defined(TYNDALL_VM_KERNELS_DISPATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TYNDALL_VM_KERNELS_DISPATCH_INL_H_
 #undef TYNDALL_VM_KERNELS_DISPATCH_INL_H_
@@ -9,6 +9,8 @@
 #include "vm/kernels/blackbody-inl.h"
 #include "vm/kernels/exponential-inl.h"
 #include "vm/kernels/fields-inl.h"
+#include "vm/kernels/hash-inl.h"
+#include "vm/kernels/interval-fields-inl.h"
 #include "vm/kernels/planes-inl.h"
 #include "vm/kernels/trigonometric-inl.h"
 #include "vm/op.h"
@@ -16,10 +18,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace tyndall::vm::HWY_NAMESPACE {
 
-// kernel<Op::add>(options, a, b) is op_add(options, a, b).
+// Kernel<Op::add>::run(options, a, b) is op_add(options, a, b), and BoundKernel<Op::add>::run is bound_add.
+// An operation without both does not compile.
 template <Op op>
 struct Kernel;
-#define X(name, operand_count)                                          \
+template <Op op>
+struct BoundKernel;
+#define TYNDALL_OP(name, operand_count, cost, traits)                   \
   template <>                                                           \
   struct Kernel<Op::name> {                                             \
     static constexpr std::size_t operands = operand_count;              \
@@ -27,9 +32,16 @@ struct Kernel;
     static TYNDALL_VM_INLINE auto run(const Options& options, V... v) { \
       return op_##name(options, v...);                                  \
     }                                                                   \
+  };                                                                    \
+  template <>                                                           \
+  struct BoundKernel<Op::name> {                                        \
+    static constexpr std::size_t operands = operand_count;              \
+    template <class... B>                                               \
+    static TYNDALL_VM_INLINE auto run(const Options& options, B... b) { \
+      return bound_##name(options, b...);                               \
+    }                                                                   \
   };
-TYNDALL_VM_OPS(X)
-#undef X
+#include "vm/operations.inc"
 
 }  // namespace tyndall::vm::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -185,6 +185,68 @@ TYNDALL_VM_KERNEL2(pow) {
 }
 inline double op_pow(const Options&, double a, double b) { return std::pow(a, b); }
 
+// Kernels that are one long chain are run at both ends of a bound at once.
+TYNDALL_VM_BOUND1(exp) {
+  const FloatsPair e = op_exp(options, FloatsPair(a.lo, a.hi));
+  const Bound<V> ends = from_to(e.a, e.b, a.nan);
+  const Bound<V> wide = widened(ends, kernel_error, least_float);
+  return {greater(wide.lo, V(0.0f)), wide.hi, wide.nan};
+}
+TYNDALL_VM_BOUND1(log) {
+  const V zero(0.0f);
+  const FloatsPair l = op_log(options, FloatsPair(greater(a.lo, zero), greater(a.hi, zero)));
+  const Bound<V> ends = from_to(l.a, l.b, either(a.nan, a.lo < zero));
+  return widened(ends, kernel_error, least_float);
+}
+
+// x^y of x >= 0: a product of y and log x, so its extremes are at the corners; x^0 is 1 for any x.
+template <class V>
+TYNDALL_VM_INLINE Bound<V> power_of_positive(const Options& options, Bound<V> x, Bound<V> y) {
+  const V zero(0.0f);
+  if (all(both(both(y.lo == y.hi, y.lo > zero), is_bounded(x)))) {
+    // Rises from exactly 0. Below the normal numbers, and for results there, the kernel is slower, and 0 is
+    // near enough: such lanes compute a power of 1 instead.
+    const V least(0x1p-126f), one(1.0f);
+    const auto none = x.lo < least, nothing = x.hi == zero;
+    const FloatsPair p =
+        op_pow(options, FloatsPair(select(none, one, x.lo), select(nothing, one, greater(x.hi, least))),
+               FloatsPair(y.lo, y.lo));
+    const Bound<V> rising = widened(from_to(p.a, p.b, either(x.nan, y.nan)), kernel_error, least_float);
+    return {select(none, zero, greater(rising.lo, zero)), select(nothing, zero, rising.hi), rising.nan};
+  }
+  const FloatsPair p = op_pow(options, FloatsPair(x.lo, x.hi), FloatsPair(y.lo, y.lo));
+  Bound<V> result = {lesser(p.a, p.b), greater(p.a, p.b), never(p.a)};
+  if (any(!(y.lo == y.hi))) {
+    const FloatsPair r = op_pow(options, FloatsPair(x.lo, x.hi), FloatsPair(y.hi, y.hi));
+    result = {lesser(result.lo, lesser(r.a, r.b)), greater(result.hi, greater(r.a, r.b)), never(p.a)};
+    const auto one = holds(y, V(0.0f));
+    result = {select(one, lesser(result.lo, V(1.0f)), result.lo),
+              select(one, greater(result.hi, V(1.0f)), result.hi), never(p.a)};
+  }
+  result = widened(result, kernel_error, least_float);
+  return {greater(result.lo, V(0.0f)), result.hi, either(result.nan, either(x.nan, y.nan))};
+}
+// Of a base that may be negative: NaN but for whole exponents, whose power is even or odd.
+TYNDALL_VM_BOUND2(pow) {
+  const V zero(0.0f);
+  const Bound<V> size = size_of(a), positive = power_of_positive(options, size, b);
+  const auto may_be_negative = !(a.lo >= zero);
+  // -0 to an odd power keeps its sign, and to a negative one is -infinity.
+  const auto holds_zero = both(holds(a, zero), b.lo < zero);
+  if (!any(either(may_be_negative, holds_zero))) return positive;
+  const auto whole = both(b.lo == b.hi, floor(b.lo) == b.lo);
+  const auto even = both(whole, floor(b.lo * V(0.5f)) * V(2.0f) == b.lo);
+  const auto broken = both(b.lo == b.hi, !whole);
+  const Bound<V> mirrored = {-positive.hi, positive.hi, positive.nan};
+  // Odd and rising: the ends' own powers.
+  const auto odd_rising = both(both(whole, !even), b.lo > zero);
+  const FloatsPair odd = op_pow(options, FloatsPair(a.lo, a.hi), FloatsPair(b.lo, b.lo));
+  const Bound<V> rising = widened(from_to(odd.a, odd.b, either(a.nan, b.nan)), kernel_error, least_float);
+  Bound<V> result = choose(either(even, broken), positive, choose(odd_rising, rising, mirrored));
+  result.nan = either(result.nan, !whole);
+  return choose(either(may_be_negative, holds_zero), result, positive);
+}
+
 }  // namespace tyndall::vm::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -66,6 +66,25 @@ TYNDALL_VM_KERNEL4(random4) {
   return unit_float(hash_float(hash_float(hash_float(hash_float(decltype(bits(a))(4), a), b), c), d));
 }
 
+// A hash is known at a point only.
+template <class V>
+TYNDALL_VM_INLINE Bound<V> hashed(MaskOf<V> known, V value) {
+  return {select(known, value, V(0.0f)), select(known, value, V(1.0f - 0x1p-23f)), never(value)};
+}
+template <class V>
+TYNDALL_VM_INLINE MaskOf<V> is_point(Bound<V> a) {
+  return both(a.lo == a.hi, !a.nan);
+}
+TYNDALL_VM_BOUND1(random1) { return hashed(is_point(a), op_random1(options, a.lo)); }
+TYNDALL_VM_BOUND2(random2) { return hashed(both(is_point(a), is_point(b)), op_random2(options, a.lo, b.lo)); }
+TYNDALL_VM_BOUND3(random3) {
+  return hashed(both(both(is_point(a), is_point(b)), is_point(c)), op_random3(options, a.lo, b.lo, c.lo));
+}
+TYNDALL_VM_BOUND4(random4) {
+  return hashed(both(both(is_point(a), is_point(b)), both(is_point(c), is_point(d))),
+                op_random4(options, a.lo, b.lo, c.lo, d.lo));
+}
+
 }  // namespace tyndall::vm::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -12,8 +12,8 @@
 #define TYNDALL_VM_KERNELS_INTERVAL_FIELDS_INL_H_
 #endif
 
+#include "vm/kernels/bounds-inl.h"
 #include "vm/kernels/fields-inl.h"
-#include "vm/kernels/interval-inl.h"
 #include "vm/kernels/slopes-inl.h"
 #include "vm/noise_constants.h"
 

@@ -46,6 +46,12 @@ TYNDALL_VM_KERNEL2(plane) {
   return below + (above - below) * y.weight;
 }
 
+// Anywhere in the picture. NaN is looked up at 0, so the value is always a number.
+TYNDALL_VM_BOUND2(plane) {
+  const Plane& plane = *options.planes[options.seed];
+  return widened(Bound<V>{V(plane.lowest), V(plane.highest), never(a.lo + b.lo)}, kernel_error, least_float);
+}
+
 }  // namespace tyndall::vm::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -167,6 +167,62 @@ TYNDALL_VM_KERNEL2(atan2) {
 inline double op_atan(const Options&, double a) { return std::atan(a); }
 inline double op_atan2(const Options&, double a, double b) { return std::atan2(a, b); }
 
+// Whether a peak at phase + 2 pi k lies between the ends; true when unsure. Beyond 2^12 float arguments are
+// too coarse to tell.
+template <class V>
+TYNDALL_VM_INLINE MaskOf<V> may_hold_peak(Bound<V> a, float phase, float turns_per_radian) {
+  const V margin(1e-3f);
+  const V first = floor((a.lo - V(phase)) * V(turns_per_radian) - margin);
+  const V last = floor((a.hi - V(phase)) * V(turns_per_radian) + margin);
+  return !both(first == last, largest_size(a) < V(4096.0f));
+}
+template <class V>
+TYNDALL_VM_INLINE Bound<V> wave(Bound<V> a, V at_lo, V at_hi, float peak, float trough) {
+  constexpr float per_turn = 0.15915494f;
+  const V error(0x1p-21f);
+  const V hi = select(may_hold_peak(a, peak, per_turn), V(1.0f), greater(at_lo, at_hi) + error);
+  const V lo = select(may_hold_peak(a, trough, per_turn), V(-1.0f), lesser(at_lo, at_hi) - error);
+  const V most(1.0f + 0x1p-21f);
+  return {greater(lo, -most) - error, lesser(hi, most) + error, a.nan};
+}
+TYNDALL_VM_BOUND1(sin) { return wave(a, op_sin(options, a.lo), op_sin(options, a.hi), half_pi, -half_pi); }
+TYNDALL_VM_BOUND1(cos) { return wave(a, op_cos(options, a.lo), op_cos(options, a.hi), 0.0f, 2 * half_pi); }
+TYNDALL_VM_BOUND1(tan) {
+  const auto pole = may_hold_peak(a, half_pi, 0.31830989f);
+  const Bound<V> ends = from_to(op_tan(options, a.lo), op_tan(options, a.hi), a.nan);
+  return choose(pole, anything(a.lo), widened(ends, kernel_error, least_float));
+}
+template <class V>
+TYNDALL_VM_INLINE Bound<V> to_domain(Bound<V> a) {
+  const V one(1.0f);
+  Bound<V> inside = within(a, -one, one);
+  inside.nan = either(a.nan, either(a.lo<-one, a.hi> one));
+  return inside;
+}
+TYNDALL_VM_BOUND1(asin) {
+  const Bound<V> x = to_domain(a);
+  return widened(from_to(op_asin(options, x.lo), op_asin(options, x.hi), x.nan), kernel_error, least_float);
+}
+TYNDALL_VM_BOUND1(acos) {
+  const Bound<V> x = to_domain(a);
+  return widened(from_to(op_acos(options, x.hi), op_acos(options, x.lo), x.nan), kernel_error, least_float);
+}
+TYNDALL_VM_BOUND1(atan) {
+  return widened(from_to(op_atan(options, a.lo), op_atan(options, a.hi), a.nan), kernel_error, least_float);
+}
+// The directions of a box that does not touch the negative x axis end at its corners.
+TYNDALL_VM_BOUND2(atan2) {
+  const V zero(0.0f), half_turn(3.1415930f);
+  const auto nan = either(a.nan, b.nan);
+  const auto cut = both(holds(a, zero), b.lo <= zero);
+  const V p = op_atan2(options, a.lo, b.lo), q = op_atan2(options, a.lo, b.hi);
+  const V r = op_atan2(options, a.hi, b.lo), s = op_atan2(options, a.hi, b.hi);
+  const Bound<V> corners =
+      widened(Bound<V>{lesser(lesser(p, q), lesser(r, s)), greater(greater(p, q), greater(r, s)), nan},
+              kernel_error, least_float);
+  return choose(cut, Bound<V>{-half_turn, half_turn, nan}, corners);
+}
+
 }  // namespace tyndall::vm::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

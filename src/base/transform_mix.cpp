@@ -1,21 +1,12 @@
 // The way from one transform to another.
-#include "eval/transform_mix.h"
+#include "base/transform_mix.h"
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
 
-namespace tyndall::eval {
+namespace tyndall {
 
 namespace {
-
-struct Quaternion {
-  double w, x, y, z;
-};
-
-// M = rotation * stretch, without offset.
-struct Polar {
-  Transform rotation, stretch;
-};
 
 Transform transposed(const Transform& m) {
   return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}, {}};
@@ -26,10 +17,11 @@ Transform lerped(const Transform& a, const Transform& b, double t) {
   return {between(a.x, b.x), between(a.y, b.y), between(a.z, b.z), between(a.t, b.t)};
 }
 
-// The nearest rotation by Newton's iteration (Higham 1986); nothing when the map flattens or mirrors.
-std::optional<Polar> polar(Transform m) {
-  m.t = {};
-  if (!(m.determinant() > 0)) return std::nullopt;
+Transform scaled(const Transform& m, double by) { return {m.x * by, m.y * by, m.z * by, {}}; }
+
+// The nearest rotation to a map that does not mirror, by Newton's iteration (Higham 1986); nothing when it
+// flattens.
+std::optional<Transform> nearest_rotation(const Transform& m) {
   Transform q = m;
   constexpr int rounds = 100;
   for (int i = 0; i < rounds; ++i) {
@@ -40,8 +32,10 @@ std::optional<Polar> polar(Transform m) {
     q = next;
     if (change < 1e-14) break;
   }
-  return Polar{q, transposed(q) * m};
+  return q;
 }
+
+double dot(const Quaternion& a, const Quaternion& b) { return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z; }
 
 // Shepperd's method: divides by the largest of the four.
 Quaternion quaternion(const Transform& r) {
@@ -70,7 +64,7 @@ Transform rotation(const Quaternion& q) {
 }
 
 Quaternion slerp(const Quaternion& a, Quaternion b, double t) {
-  double cosine = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
+  double cosine = dot(a, b);
   if (cosine < 0) {  // the other quaternion of the same rotation is nearer
     b = {-b.w, -b.x, -b.y, -b.z};
     cosine = -cosine;
@@ -89,14 +83,33 @@ Quaternion slerp(const Quaternion& a, Quaternion b, double t) {
 
 }  // namespace
 
-Transform mix(const Transform& a, const Transform& b, double t) {
-  const Transform straight = lerped(a, b, t);
-  const std::optional<Polar> pa = polar(a), pb = polar(b);
-  if (!pa || !pb) return straight;
-  const Quaternion turned = slerp(quaternion(pa->rotation), quaternion(pb->rotation), t);
-  Transform result = rotation(turned) * lerped(pa->stretch, pb->stretch, t);
-  result.t = straight.t;
-  return result;
+std::optional<Pose> pose_of(const Transform& m) {
+  const Transform linear{m.x, m.y, m.z, {}};
+  const double side = m.determinant() < 0 ? -1 : 1;
+  const std::optional<Transform> turned = nearest_rotation(scaled(linear, side));
+  if (!turned) return std::nullopt;
+  return Pose{quaternion(*turned), transposed(*turned) * linear};
 }
 
-}  // namespace tyndall::eval
+double angle_between(const Quaternion& a, const Quaternion& b) {
+  const double side = dot(a, b) < 0 ? -1 : 1;
+  const Quaternion d{a.w - side * b.w, a.x - side * b.x, a.y - side * b.y, a.z - side * b.z};
+  return 4 * std::asin(std::min(std::sqrt(dot(d, d)) / 2, 1.0));
+}
+
+std::optional<Transform> mix(const Pose& a, const Pose& b, double t) {
+  if ((a.stretch.determinant() < 0) != (b.stretch.determinant() < 0)) return std::nullopt;
+  return rotation(slerp(a.rotation, b.rotation, t)) * lerped(a.stretch, b.stretch, t);
+}
+
+Transform mix(const Transform& a, const Transform& b, double t) {
+  const Transform straight = lerped(a, b, t);
+  const std::optional<Pose> pa = pose_of(a), pb = pose_of(b);
+  std::optional<Transform> turned;
+  if (pa && pb) turned = mix(*pa, *pb, t);
+  if (!turned) return straight;
+  turned->t = straight.t;
+  return *turned;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,35 @@
+#include "render/segment_limit.h"
+
+#include "render/render.h"
+
+namespace tyndall::render {
+
+void SegmentShortage::add(const Stretch& stretch) {
+  const scene::Step& step = world_->volumes[stretch.volume].step;
+  if (!step.proven) {
+    asked_step_ = std::min(asked_step_, stretch.step);
+    return;
+  }
+  tolerance_ = std::max(tolerance_, step.tolerance);
+  spread_ += double{stretch.spread};
+  minorant_ += double{stretch.minorant};
+}
+
+void SegmentShortage::end_part(double length, std::uint32_t count) {
+  if (const double step = length / count;
+      step > asked_step_ && step * worst_asked_ > worst_step_ * asked_step_) {
+    worst_asked_ = asked_step_;
+    worst_step_ = step;
+  }
+  // E[T'] - T <= T (exp(S) - 1), and no more than 1.
+  spent_ += sqr(length * spread_) / (4.0 * count);
+  reached_ = std::max(reached_, std::min(std::expm1(std::min(spent_, 700.0)) * std::exp(-depth_), 1.0));
+  depth_ += length * minorant_;
+}
+
+void SegmentShortage::count_in(Statistics& statistics) const {
+  if (worst_step_ > 0) statistics.widened_steps.add(worst_asked_, worst_step_);
+  if (reached_ > tolerance_ && tolerance_ > 0) statistics.missed_tolerances.add(tolerance_, reached_);
+}
+
+}  // namespace tyndall::render

@@ -1,0 +1,83 @@
+#include "tools/misuse.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+
+namespace tyndall::tools {
+namespace {
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+// "--samples", "-o": every spelling of every option of a command.
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+std::string likely_meant(std::string_view word, const std::vector<std::string>& known) {
+  const std::string help = did_you_mean(word, {known.begin(), known.end()});
+  return help.empty() ? help : ": " + help;
+}
+
+std::string unknown_command(const CLI::App& program, const std::string& word) {
+  const std::vector<std::string> names = command_names(program);
+  return fmt::format("there is no command '{}'{}\nthe commands are: {}", word, likely_meant(word, names),
+                     fmt::join(names, ", "));
+}
+
+std::string unknown_option(const CLI::App& program, const CLI::App& command, const std::string& argument) {
+  const std::string name = argument.substr(0, argument.find('='));
+  const std::string where = &command == &program ? "before a command there is no option"
+                                                 : fmt::format("{} has no option", command.get_name());
+  const std::string message = fmt::format("{} '{}'", where, name);
+  std::vector<std::string> owners;
+  for (const CLI::App* other : program.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::vector<std::string> names = option_names(*other);
+    if (std::find(names.begin(), names.end(), name) != names.end()) owners.push_back(other->get_name());
+  }
+  if (!owners.empty()) return fmt::format("{}: it belongs to {}", message, fmt::join(owners, ", "));
+  return message + likely_meant(name, option_names(command));
+}
+
+std::string help_line(const CLI::App& program, const CLI::App& command) {
+  return fmt::format("\ntyndall {}--help tells more", &command == &program ? "" : command.get_name() + " ");
+}
+
+}  // namespace
+
+std::string explain_misuse(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const CLI::App& command = chosen.empty() || !program.remaining().empty() ? program : *chosen.front();
+  const std::vector<std::string> unread = command.remaining();
+  const auto option = std::find_if(unread.begin(), unread.end(),
+                                   [](const std::string& word) { return word.starts_with('-'); });
+  if (&command == &program) {
+    if (!unread.empty() && option != unread.begin()) return unknown_command(program, unread.front());
+    if (unread.empty())
+      return fmt::format("this wants a command: {}{}", fmt::join(command_names(program), ", "),
+                         help_line(program, command));
+  }
+  if (option != unread.end()) return unknown_option(program, command, *option) + help_line(program, command);
+  if (!unread.empty())
+    return fmt::format("{} does not know what to do with '{}'{}", command.get_name(), unread.front(),
+                       help_line(program, command));
+  return error.what() + help_line(program, command);
+}
+
+}  // namespace tyndall::tools

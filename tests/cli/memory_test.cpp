@@ -1,0 +1,55 @@
+// Memory that runs out is told with the place, or with the work that wanted it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "cli/run_program.h"
+
+namespace tyndall::test {
+namespace {
+
+using Memory = CliTest;
+
+// Runs the program in so much address space.
+Outcome tyndall_within(int megabytes, const std::string& arguments) {
+  return run("/bin/sh",
+             {"-c", fmt::format("ulimit -v {}; exec '{}' {}", megabytes * 1024, TYNDALL_PROGRAM, arguments)});
+}
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool reserves_all_addresses = true;
+#else
+constexpr bool reserves_all_addresses = false;
+#endif
+
+TEST_F(Memory, ThatRunsOutIsToldAtTheStatement) {
+  if (reserves_all_addresses) GTEST_SKIP() << "the sanitizer's own memory is beyond any limit";
+  const std::string scene =
+      file("a.tyn", small_scene() + "\n  for i in 0..<10000000 { sphere { radius: 1 } }\n");
+  const Outcome outcome = tyndall_within(300, "check " + scene);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find(":27: error: there is not enough memory for what this makes"), std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(Memory, ThatRunsOutIsToldWithTheWork) {
+  if (reserves_all_addresses) GTEST_SKIP() << "the sanitizer's own memory is beyond any limit";
+  const Outcome outcome =
+      tyndall_within(400, fmt::format("render {} -o {} --resolution 16384x16384 --samples 1 --threads 1",
+                                      file("a.tyn", small_scene()), path("a.png")));
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("error: there is not enough memory to render the picture"), std::string::npos)
+      << outcome.err;
+}
+
+// What can be no scene is told before memory is taken in proportion to it.
+TEST_F(Memory, IsNotTakenForMillionsOfBrackets) {
+  if (reserves_all_addresses) GTEST_SKIP() << "the sanitizer's own memory is beyond any limit";
+  const std::string scene = file("a.tyn", "let a = " + std::string(50'000'000, '('));
+  const Outcome outcome = tyndall_within(600, "check " + scene);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("a.tyn:1:265: error: nested too deeply"), std::string::npos)
+      << outcome.err.substr(0, 1000);
+}
+
+}  // namespace
+}  // namespace tyndall::test
