@@ -150,6 +150,11 @@ Value Evaluator::call(const Function& function, const SyntaxTree& tree, const Ca
     return ++errors_reported_, Value{};
   if (static_cast<int>(frames_.size()) >= max_call_depth)
     return error(span, fmt::format("more than {} functions inside each other", max_call_depth));
+  const int most_calls = in_body() ? max_body_calls : max_total_calls;
+  if (calls_ > most_calls) return ++errors_reported_, Value{};  // told already
+  if (++calls_ > most_calls)
+    return error(span, fmt::format("more than {} calls of functions for one value", most_calls),
+                 "functions that call others twice multiply: give the first result a name with let");
   const std::shared_ptr<Scope> inner = bind_arguments(*function.tree, item->parameters, function.scope, tree,
                                                       call_expr.arguments, scope, name, span);
   if (!inner) return {};

@@ -74,7 +74,7 @@ double at(const RangeValue& range, std::int64_t index) {
 class Evaluator::Nested {
  public:
   explicit Nested(Evaluator& evaluator) : evaluator_(evaluator) {
-    if (evaluator_.depth_++ == 0 && !evaluator_.in_body()) evaluator_.iterations_ = 0;
+    if (evaluator_.depth_++ == 0 && !evaluator_.in_body()) evaluator_.iterations_ = evaluator_.calls_ = 0;
   }
   ~Nested() { --evaluator_.depth_; }
   Nested(const Nested&) = delete;

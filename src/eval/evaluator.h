@@ -26,6 +26,8 @@ inline constexpr int max_loop_iterations = 100'000;     // one `for` in a functi
 inline constexpr int max_total_iterations = 1'000'000;  // all of them below one outermost evaluation
 inline constexpr int max_unrolled_iterations = 4'096;   // one `for` in a body
 inline constexpr int max_total_unrolled = 65'536;       // all of them in one body
+inline constexpr int max_total_calls = 1'000'000;       // of functions, below one outermost evaluation
+inline constexpr int max_body_calls = 65'536;           // of functions, in one body
 inline constexpr int max_octaves = 32;
 inline constexpr std::size_t max_string_bytes = 65'536;
 inline constexpr int max_list_depth = 256;  // lists within each other
@@ -218,7 +220,7 @@ class Evaluator {
   std::vector<Frame> frames_;
   int depth_ = 0;
   int errors_reported_ = 0;
-  std::int64_t iterations_ = 0;
+  std::int64_t iterations_ = 0, calls_ = 0;
 };
 
 }  // namespace tyndall::eval

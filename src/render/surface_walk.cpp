@@ -32,6 +32,10 @@ bool SurfaceWalk::is_boundary(const SurfaceHit& hit) const {
   return hit.light == compile::no_index && !hit.sheet && world_.materials[hit.material].transmits;
 }
 
+bool SurfaceWalk::is_pane(const SurfaceHit& hit) const {
+  return hit.light == compile::no_index && hit.sheet && world_.materials[hit.material].transmits;
+}
+
 bool SurfaceWalk::stops(const SurfaceHit& hit) const {
   return hit.light != compile::no_index || (world_.materials[hit.material].opaque && !is_boundary(hit));
 }
@@ -43,7 +47,7 @@ std::optional<SurfaceHit> SurfaceWalk::next() {
     if (!hit) return std::nullopt;
     after_ = {hit->t, hit->surface, hit->part};
     const bool alone = !world_.features.nested_glass || hit->light != compile::no_index ||
-                       !(is_boundary(*hit) || stops(*hit));
+                       !(is_boundary(*hit) || is_pane(*hit) || stops(*hit));
     if (alone) return hit;
     gather(*hit);
     cross_together();
@@ -51,13 +55,14 @@ std::optional<SurfaceHit> SurfaceWalk::next() {
 }
 
 // All that is in the place of `first`, as far as errors let places be told apart. What stops the ray stops it
-// before the glass that it touches.
+// before the glass that it touches. A thin pane in a face of glass is part of the body.
 void SurfaceWalk::gather(const SurfaceHit& first) {
   together_.assign(1, first);
   told_ = 0;
   // Along the normal, from `first`: the place ends where all of it is certainly behind.
   double before = first.offset_before, behind = first.offset_behind;
-  bool stopped = stops(first);
+  const auto ends = [&](const SurfaceHit& hit) { return stops(hit) && !is_pane(hit); };
+  bool stopped = ends(first);
   Ray near = ray_;
   near.t_max = std::min(near.t_max, first.t + largest_ratio_of_errors * first.offset_behind /
                                                   std::max(cosine(first, ray_), 1e-6));
@@ -70,8 +75,16 @@ void SurfaceWalk::gather(const SurfaceHit& first) {
     behind = std::max(behind, hit->offset_behind + depth);
     if (stopped) continue;  // what is behind it tells how far before it rays must start
     together_.push_back(*hit);
-    stopped = stops(*hit);
+    stopped = ends(*hit);
   }
+  const auto pane =
+      std::find_if(together_.begin(), together_.end(), [&](const SurfaceHit& hit) { return is_pane(hit); });
+  const bool in_a_face = !stopped && std::any_of(together_.begin(), together_.end(),
+                                                 [&](const SurfaceHit& hit) { return is_boundary(hit); });
+  if (in_a_face)
+    std::erase_if(together_, [&](const SurfaceHit& hit) { return is_pane(hit); });
+  else if (pane != together_.end())
+    together_.erase(pane + 1, together_.end());
   if (!stops(together_.back())) after_ = after;
   for (SurfaceHit& hit : together_) {
     const double depth = (hit.t - first.t) * cosine(hit, ray_);

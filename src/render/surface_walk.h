@@ -20,6 +20,8 @@ class SurfaceWalk {
 
  private:
   bool is_boundary(const compile::SurfaceHit& hit) const;
+  // A thin pane of glass: an open surface that transmits.
+  bool is_pane(const compile::SurfaceHit& hit) const;
   bool stops(const compile::SurfaceHit& hit) const;
   void gather(const compile::SurfaceHit& first);
   void cross_together();

@@ -27,11 +27,17 @@ fs::path folder_of(const std::string& file) {
 
 fs::path canonical_path(const fs::path& path) {
   std::error_code failed;
-  const fs::path result = fs::weakly_canonical(fs::absolute(path), failed);
+  const fs::path absolute = fs::absolute(path, failed);
+  if (failed) return path.lexically_normal();
+  const fs::path result = fs::weakly_canonical(absolute, failed);
   return failed ? path.lexically_normal() : result;
 }
 
 std::optional<fs::path> find_file(Run& run, std::string_view noun, const std::string& name, Span span) {
+  if (name.empty()) {
+    run.diagnostics.error(span, "the name of a file is empty", "write the file's name");
+    return std::nullopt;
+  }
   // The system would read up to there: another file than is checked.
   if (name.find('\0') != std::string::npos) {
     run.diagnostics.error(span, "the name of a file cannot hold NUL", "leave \\u{0} out");

@@ -30,6 +30,7 @@ std::span<const Limit> limits() {
       {"pictures", max_picture_bytes, "bytes that all pictures of a scene take, decoded (1 GB)"},
       {"curve points", max_curve_points, "points of all strands of one `curves`"},
       {"call depth", eval::max_call_depth, "functions that call each other"},
+      {"function calls", eval::max_total_calls, "calls of functions for one value"},
       {"evaluation depth", eval::max_expression_depth, "operations within each other, through all calls"},
       {"function rounds", eval::max_loop_iterations, "rounds of one `for` in a function"},
       {"function rounds in all", eval::max_total_iterations,

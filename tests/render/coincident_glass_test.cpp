@@ -90,6 +90,22 @@ TEST(CoincidentGlass, TanksOfPanes) {
         size);
 }
 
+// Crossed for themselves they would hide the face's refraction, and radiance would be off by n².
+TEST(CoincidentGlass, ThinPanesInAFace) {
+  for (const char* pane :
+       {"quad { center: (0, 0, 1)  u: (0.5, 0, 0)  v: (0, 0.5, 0)  material: glass }",
+        "quad { center: (0, 0, 1)  u: (1, 0, 0)  v: (0, 1, 0)  material: water }",
+        "quad { center: (0, 0, -1)  u: (0.5, 0, 0)  v: (0, 0.5, 0)  material: glass }",
+        "disk { center: (0, 1, 0)  normal: (0, 1, 0)  radius: 0.7  material: glass }",
+        "mesh { points: [(-1, -1, 1), (1, -1, 1), (0, 1, 1)]  triangles: [(0, 1, 2)]  material: glass }"}) {
+    expect_invisible(box + "}" + pane);
+    expect_invisible(pane + box + "}");
+  }
+  expect_invisible(box +
+                   "} box { min: (-1, -1, 1)  max: (1, 1, 3)  material: glass }"
+                   "quad { center: (0, 0, 1)  u: (0.5, 0, 0)  v: (0, 0.5, 0)  material: glass }");
+}
+
 TEST(CoincidentGlass, ObjectsPlacedTwice) {
   expect_invisible("place ball {} place ball {}");
   expect_invisible("place ball {} sphere { material: water }");
