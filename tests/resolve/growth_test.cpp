@@ -99,6 +99,9 @@ double seconds_of(const std::string& text) {
 class Growth : public testing::TestWithParam<Kind> {};
 
 TEST_P(Growth, IsThatOfTheText) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "instrumented code takes minutes, and its time says nothing about the program's";
+#endif
   constexpr double most = 64;
   constexpr int tries = 3;  // another process may have taken the caches
   const std::string small = GetParam().text(GetParam().few), large = GetParam().text(16 * GetParam().few);

@@ -65,6 +65,15 @@ std::string calls(std::int64_t n, const fs::path&) {
 
 std::string rounds(std::string_view form, std::int64_t n) { return fmt::format(fmt::runtime(form), n); }
 
+// One value that takes n calls: of one function, which calls another twice a round.
+std::string many_calls(std::int64_t n) {
+  std::string text = "def g(x) = x  def f() = { var s = 0 ";
+  for (std::int64_t pairs = (n - 1) / 2; pairs > 0; pairs -= eval::max_loop_iterations)
+    text += fmt::format("for i in 1..{} {{ s = s + g(i) + g(i) }} ",
+                        std::min<std::int64_t>(pairs, eval::max_loop_iterations));
+  return text + ((n - 1) % 2 ? "s = s + g(1) " : "") + "return s } let _a = f()";
+}
+
 // As many rounds as `n` in loops of at most `each`.
 std::string many_loops(std::int64_t n, std::int64_t each, const char* form) {
   std::string loops;
@@ -118,6 +127,7 @@ const std::map<std::string_view, Maker>& makers() {
       {"list depth", nested_lists},
       {"light samples", [](auto n, auto&) { return fmt::format("render {{ light_samples: {} }}", n); }},
       {"call depth", calls},
+      {"function calls", [](auto n, auto&) { return many_calls(n); }},
       {"function rounds",
        [](auto n, auto&) {
          return rounds("def f() = {{ var s = 0 for i in 1..{} {{ s = s + i }} return s }} let _a = f()", n);
