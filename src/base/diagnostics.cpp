@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/flood.h"
 #include "base/utf8.h"
 
 namespace tyndall {
@@ -58,18 +59,6 @@ struct Colors {
 };
 constexpr Colors no_colors{};
 constexpr Colors ansi_colors{"\x1b[1m", "\x1b[1;31m", "\x1b[1;35m", "\x1b[1;36m", "\x1b[1;32m", "\x1b[0m"};
-
-std::string_view word(Severity severity) {
-  switch (severity) {
-    case Severity::note:
-      return "note";
-    case Severity::warning:
-      return "warning";
-    case Severity::error:
-      return "error";
-  }
-  return {};
-}
 
 std::string_view color_of(Severity severity, const Colors& colors) {
   switch (severity) {
@@ -149,7 +138,7 @@ void write_message(std::string& out, Severity severity, const Span& span, std::s
     const LineColumn at = source.locate(span.begin);
     out += fmt::format("{}{}:{}:{}: ", colors.bold, source.name(), at.line, at.column);
   }
-  out += fmt::format("{}{}:{} {}{}{}\n", color_of(severity, colors), word(severity), colors.off, colors.bold,
+  out += fmt::format("{}{}:{} {}{}{}\n", color_of(severity, colors), name(severity), colors.off, colors.bold,
                      message, colors.off);
   if (!span.valid()) return;
   const Source& source = sources[span.source];
@@ -167,6 +156,18 @@ void write_message(std::string& out, Severity severity, const Span& span, std::s
 }
 
 }  // namespace
+
+std::string_view name(Severity severity) {
+  switch (severity) {
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::error:
+      return "error";
+  }
+  return {};
+}
 
 std::string render_text(const Diagnostic& d, const Sources& sources, bool color) {
   const Colors& colors = color ? ansi_colors : no_colors;
@@ -187,12 +188,13 @@ std::string render_text(const Diagnostics& all, const Sources& sources, bool col
     return std::pair(a->span.source.index, a->span.begin) < std::pair(b->span.source.index, b->span.begin);
   });
   for (const Diagnostic* d : sorted) out += render_text(*d, sources, color);
-  const auto write_rest = [&](int count, int shown, std::string_view noun) {
+  const auto write_rest = [&](int count, int shown, std::string_view noun, std::string_view at_least) {
     if (count > shown)
-      out += fmt::format("… and {} more {}{}\n", count - shown, noun, count - shown == 1 ? "" : "s");
+      out +=
+          fmt::format("… and {}{} more {}{}\n", at_least, count - shown, noun, count - shown == 1 ? "" : "s");
   };
-  write_rest(all.error_count(), Diagnostics::max_errors, "error");
-  write_rest(all.warning_count(), Diagnostics::max_warnings, "warning");
+  write_rest(all.error_count(), Diagnostics::max_errors, "error", flooded(all) ? "at least " : "");
+  write_rest(all.warning_count(), Diagnostics::max_warnings, "warning", "");
   return out;
 }
 

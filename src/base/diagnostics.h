@@ -11,6 +11,7 @@
 namespace tyndall {
 
 enum class Severity { note, warning, error };
+std::string_view name(Severity severity);
 
 // One message. `help` is the way out ("did you mean 'density'?"), empty when there is none.
 // Notes point at further places: an earlier definition, the calls and includes that led here.

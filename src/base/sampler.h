@@ -23,6 +23,11 @@ constexpr std::uint64_t hash_bits(std::uint64_t a, std::uint64_t b) { return has
 // 24 bits to a float in [0, 1).
 constexpr float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
+// 53 bits to a double in (0, 1), whose logarithm is finite.
+constexpr double open_unit_double(std::uint64_t bits) {
+  return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+}
+
 // Dimensions of one decision's points.
 inline constexpr int sobol_dimensions = 8;
 using SobolPoint = std::array<float, sobol_dimensions>;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/check.h"
+
 namespace tyndall {
 
 std::optional<Transform> Transform::inverse() const {
@@ -11,6 +13,12 @@ std::optional<Transform> Transform::inverse() const {
   Transform inv{{rx.x, ry.x, rz.x}, {rx.y, ry.y, rz.y}, {rx.z, ry.z, rz.z}, {}};
   inv.t = -inv.vector(t);
   return inv;
+}
+
+Transform inverse_of(const Transform& t) {
+  const auto inverse = t.inverse();
+  CHECK(inverse.has_value());
+  return *inverse;
 }
 
 Vec3d Transform::normal(const Vec3d& n) const {
@@ -35,6 +43,16 @@ std::optional<Transform> Transform::look_at(const Vec3d& from, const Vec3d& to, 
   if (!(length(back) > 0) || !(length(right) > 0)) return std::nullopt;
   const Vec3d z = normalize(back), x = normalize(right);
   return Transform{x, cross(z, x), z, from};
+}
+
+std::optional<double> similarity_scale(const Transform& t) {
+  constexpr double tolerance = 1e-6;
+  const double x2 = length_squared(t.x), y2 = length_squared(t.y), z2 = length_squared(t.z);
+  const double scale2 = (x2 + y2 + z2) / 3;
+  const auto close = [&](double a, double b) { return std::abs(a - b) <= tolerance * scale2; };
+  if (!close(x2, scale2) || !close(y2, scale2) || !close(z2, scale2)) return std::nullopt;
+  if (!close(dot(t.x, t.y), 0) || !close(dot(t.y, t.z), 0) || !close(dot(t.z, t.x), 0)) return std::nullopt;
+  return std::sqrt(scale2);
 }
 
 }  // namespace tyndall

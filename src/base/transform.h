@@ -38,4 +38,11 @@ struct Transform {
   static std::optional<Transform> look_at(const Vec3d& from, const Vec3d& to, const Vec3d& up);
 };
 
+// The inverse of a map that is known not to flatten space: resolve refuses those that do.
+Transform inverse_of(const Transform& t);
+
+// The factor by which all lengths grow when the map is a rotation, mirroring and uniform scale (to 1e-6 of
+// it); nothing for others.
+std::optional<double> similarity_scale(const Transform& t);
+
 }  // namespace tyndall

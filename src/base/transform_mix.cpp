@@ -63,24 +63,6 @@ Transform rotation(const Quaternion& q) {
           {}};
 }
 
-Quaternion slerp(const Quaternion& a, Quaternion b, double t) {
-  double cosine = dot(a, b);
-  if (cosine < 0) {  // the other quaternion of the same rotation is nearer
-    b = {-b.w, -b.x, -b.y, -b.z};
-    cosine = -cosine;
-  }
-  double weight_a = 1 - t, weight_b = t;
-  if (cosine < 1 - 1e-12) {
-    const double angle = std::acos(cosine);
-    weight_a = std::sin((1 - t) * angle) / std::sin(angle);
-    weight_b = std::sin(t * angle) / std::sin(angle);
-  }
-  const Quaternion q{weight_a * a.w + weight_b * b.w, weight_a * a.x + weight_b * b.x,
-                     weight_a * a.y + weight_b * b.y, weight_a * a.z + weight_b * b.z};
-  const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-  return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
-}
-
 }  // namespace
 
 std::optional<Pose> pose_of(const Transform& m) {
@@ -97,19 +79,45 @@ double angle_between(const Quaternion& a, const Quaternion& b) {
   return 4 * std::asin(std::min(std::sqrt(dot(d, d)) / 2, 1.0));
 }
 
-std::optional<Transform> mix(const Pose& a, const Pose& b, double t) {
-  if ((a.stretch.determinant() < 0) != (b.stretch.determinant() < 0)) return std::nullopt;
-  return rotation(slerp(a.rotation, b.rotation, t)) * lerped(a.stretch, b.stretch, t);
+std::optional<PoseMix> PoseMix::between(const Pose& a, const Pose& b) {
+  if ((a.interval.determinant() < 0) != (b.interval.determinant() < 0)) return std::nullopt;
+  PoseMix mix;
+  mix.a_ = a;
+  mix.b_ = b;
+  double cosine = dot(a.rotation, b.rotation);
+  if (cosine < 0) {  // the other quaternion of the same rotation is nearer
+    const Quaternion& q = b.rotation;
+    mix.b_.rotation = {-q.w, -q.x, -q.y, -q.z};
+    cosine = -cosine;
+  }
+  if (cosine < 1 - 1e-12) {
+    mix.angle_ = std::acos(cosine);
+    mix.sine_ = std::sin(mix.angle_);
+  }
+  return mix;
+}
+
+Transform PoseMix::at(double t) const {
+  double weight_a = 1 - t, weight_b = t;
+  if (angle_ > 0) {
+    weight_a = std::sin((1 - t) * angle_) / sine_;
+    weight_b = std::sin(t * angle_) / sine_;
+  }
+  const Quaternion &a = a_.rotation, &b = b_.rotation;
+  const Quaternion q{weight_a * a.w + weight_b * b.w, weight_a * a.x + weight_b * b.x,
+                     weight_a * a.y + weight_b * b.y, weight_a * a.z + weight_b * b.z};
+  const double norm = std::sqrt(dot(q, q));
+  return rotation({q.w / norm, q.x / norm, q.y / norm, q.z / norm}) * lerped(a_.interval, b_.interval, t);
 }
 
 Transform mix(const Transform& a, const Transform& b, double t) {
   const Transform straight = lerped(a, b, t);
   const std::optional<Pose> pa = pose_of(a), pb = pose_of(b);
-  std::optional<Transform> turned;
-  if (pa && pb) turned = mix(*pa, *pb, t);
+  const std::optional<PoseMix> turned = pa && pb ? PoseMix::between(*pa, *pb) : std::nullopt;
   if (!turned) return straight;
-  turned->t = straight.t;
-  return *turned;
+  Transform mixed = turned->at(t);
+  mixed.t = straight.t;
+  return mixed;
 }
 
 }  // namespace tyndall

@@ -16,7 +16,7 @@ struct Quaternion {
 // where the transform mirrors. Shoemake and Duff, "Matrix animation and polar decomposition" (1992).
 struct Pose {
   Quaternion rotation;
-  Transform stretch;
+  Transform interval;
 };
 // Nothing when the transform flattens.
 std::optional<Pose> pose_of(const Transform& m);
@@ -25,9 +25,17 @@ std::optional<Pose> pose_of(const Transform& m);
 double angle_between(const Quaternion& a, const Quaternion& b);
 
 // The linear part between two poses, a at t = 0, b at t = 1: the rotation turns the short way at a steady
-// rate (slerp), the stretch goes in a straight line. Nothing when only one of them mirrors: there is no way
-// that does not flatten.
-std::optional<Transform> mix(const Pose& a, const Pose& b, double t);
+// rate (slerp), the stretch goes in a straight line.
+class PoseMix {
+ public:
+  // Nothing when only one of them mirrors: there is no way that does not flatten.
+  static std::optional<PoseMix> between(const Pose& a, const Pose& b);
+  Transform at(double t) const;
+
+ private:
+  Pose a_, b_;
+  double angle_ = 0, sine_ = 0;  // of the rotation as quaternions turn; 0 where it is straight enough
+};
 
 // a at t = 0, b at t = 1: the linear part as above, the offset in a straight line. Where one of them flattens
 // or mirrors what the other does not, every number moves in a straight line.

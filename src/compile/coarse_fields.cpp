@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compile/geometry.h"
-#include "vm/machine.h"
+#include "compile/geometry/geometry.h"
+#include "vm/run/machine.h"
 
 namespace tyndall::compile {
 
@@ -77,7 +77,7 @@ Bounds box_around(const Bounds& box, const Transform& t) {
 std::vector<CoarseField> find_coarse_fields(const CompiledScene& world) {
   Finder finder(world);
   for (const CompiledVolume& volume : world.volumes) {
-    const scene::Medium& medium = world.scene.media[volume.medium];
+    const CompiledMedium& medium = world.media[volume.medium];
     const auto bounds = world.geometry->bounds_of(volume.shape);
     const auto render_from_medium = volume.medium_from_render.inverse();
     if (medium.lattice_places.fields.empty() || !bounds || !render_from_medium) continue;

@@ -1,20 +1,22 @@
 #include "compile/compiled_scene.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
 
 #include "base/check.h"
-#include "base/overloaded.h"
 #include "compile/coarse_fields.h"
-#include "compile/emitters.h"
-#include "compile/geometry.h"
-#include "compile/hit_error.h"
-#include "compile/light_tree.h"
-#include "compile/majorant_grid.h"
-#include "compile/solids.h"
-#include "compile/volume_grids.h"
-#include "optics/sky.h"
-#include "vm/machine.h"
+#include "compile/geometry/geometry.h"
+#include "compile/geometry/nested_dielectrics.h"
+#include "compile/kept.h"
+#include "compile/lights/glowing_shapes.h"
+#include "compile/lights/light_tree.h"
+#include "compile/majorant/build_majorant_grids.h"
+#include "compile/majorant/majorant_grid.h"
+#include "compile/steps/choose_steps.h"
+#include "vm/run/machine.h"
 
 namespace tyndall::compile {
 
@@ -23,41 +25,26 @@ namespace {
 // Up to this many lights are weighed one by one.
 constexpr std::size_t few_lights = 8;
 
-Transform inverse_of(const Transform& t) {
-  const auto inverse = t.inverse();
-  CHECK(inverse.has_value());  // resolve refuses transforms that flatten space
-  return *inverse;
-}
-
 Vec3d camera_position(const scene::Camera& camera) {
   return std::visit([](const auto& c) { return c.from; }, camera);
 }
 
-// Moves a light's place. Its emitter and densities are made when `scene` is given.
-optics::Light moved(const scene::Scene* scene, const scene::LightInstance& instance, const Vec3d& offset) {
-  optics::Light out = instance.light;
-  std::visit(Overloaded{[&](optics::PointLight& l) { l.position += offset; },
-                        [&](optics::SphereLight& l) { l.center += offset; },
-                        [&](optics::SpotLight& l) { l.position += offset, l.to += offset; },
-                        [&](optics::QuadLight& l) { l.center += offset; },
-                        [&](optics::DiskLight& l) { l.center += offset; },
-                        [&](optics::MeshLight& l) {
-                          l.world_from_shape.t += offset;
-                          if (scene) l.emitter = emitter_of(*scene, *instance.shape, l.world_from_shape);
-                        },
-                        [](optics::DistantLight&) {},
-                        [&](optics::EnvironmentLight& l) {
-                          if (scene && l.radiance.picture[0]) l.sky = std::make_shared<const optics::Sky>(l);
-                        }},
-             out);
-  return out;
-}
-
 bool grey(const scene::RgbOutputs& outputs) { return outputs[0] == outputs[1] && outputs[1] == outputs[2]; }
 
+// Of a medium with one lobe that is the same everywhere.
+std::optional<optics::Phase> constant_phase(const std::vector<scene::PhaseLobe>& lobes) {
+  if (lobes.size() != 1 || lobes[0].weight.output || !(lobes[0].weight.value > 0)) return std::nullopt;
+  std::array<float, optics::most_phase_parameters> parameters{};
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (lobes[0].parameters[k].output) return std::nullopt;
+    parameters[k] = lobes[0].parameters[k].value;
+  }
+  return optics::Phase(lobes[0].kind, parameters);
+}
+
 CompiledMedium compiled(const scene::Medium& medium) {
-  CompiledMedium out;
-  out.homogeneous = medium.homogeneous();
+  CompiledMedium out{medium};
+  out.uniform = medium.homogeneous();
   out.constant = medium.full.constants.size() == medium.full.operand_count();
   const vm::Program& program = medium.extinction;
   const auto& outputs = medium.extinction_sigma_t;
@@ -67,6 +54,7 @@ CompiledMedium compiled(const scene::Medium& medium) {
     for (std::size_t c = 0; c < 3; ++c) sigma_t[c] = program.constants[program.outputs[outputs[c]]];
     if (all_finite(sigma_t) && min_component(sigma_t) >= 0) out.constant_sigma_t = sigma_t;
   }
+  out.constant_phase = constant_phase(medium.phase);
   out.uses.assign(medium.full.outputs.size(), OutputUse::shown);
   const auto mark = [&](const scene::RgbOutputs& which) {
     for (const std::uint8_t k : which) out.uses[k] = OutputUse::coefficient;
@@ -100,6 +88,8 @@ float uniform_value(const vm::Program& program, std::uint8_t output, double at_t
 CompiledMaterial compiled(const scene::Material& material, double time) {
   CompiledMaterial out;
   out.matte = material.matte();
+  out.reads_mesh =
+      std::any_of(material.program.inputs.begin(), material.program.inputs.end(), vm::is_of_mesh);
   out.opaque = !material.opacity;
   out.transmits = material.transmission.has_value();
   if (material.ior) {
@@ -107,6 +97,9 @@ CompiledMaterial compiled(const scene::Material& material, double time) {
     const scene::GivenNumber& given = material.given[*material.ior];
     if (const double ior = out.ior; !given.name.empty() && !(ior >= given.lowest && ior <= given.highest)) {
       out.bad_ior = static_cast<float>(ior);  // a function of time has left the range
+      if (!given.branches.empty())
+        out.bad_ior_branch =
+            static_cast<std::size_t>(uniform_value(material.program, given.branch_output, time));
       out.ior = std::isnan(ior) ? given.lowest : std::clamp(ior, given.lowest, given.highest);
     }
   }
@@ -132,9 +125,14 @@ std::vector<double> rough_etas(const CompiledScene& world) {
 // Whether anything differs between rays of different times.
 bool moves(const scene::Scene& scene) {
   const scene::Motion& m = scene.motion;
-  if (scene.animation.shutter.radians == 0) return false;
+  if (!scene.animation.shutter.open()) return false;
   if (!m.camera.empty() || !m.shapes.empty() || !m.instances.empty() || !m.volumes.empty() ||
       !m.lights.empty())
+    return true;
+  const auto mesh_deforms = [](const scene::SharedMesh& mesh) { return !mesh->later.empty(); };
+  const auto strands_deform = [](const scene::StrandSet& set) { return !set.later.empty(); };
+  if (std::any_of(scene.meshes.begin(), scene.meshes.end(), mesh_deforms) ||
+      std::any_of(scene.strand_sets.begin(), scene.strand_sets.end(), strands_deform))
     return true;
   const auto in_objects = [](const scene::Prototype& p) {
     return !p.moving_shapes.empty() || !p.moving_instances.empty();
@@ -171,21 +169,28 @@ Features features_of(const CompiledScene& world) {
   f.surfaces = !world.scene.shapes.empty() || !world.scene.instances.empty();
   f.overlap = world.volumes.size() > 1;
   for (const CompiledVolume& v : world.volumes) {
-    const scene::Medium& m = world.scene.media[v.medium];
-    f.heterogeneous |= !m.homogeneous();
+    const CompiledMedium& m = world.media[v.medium];
+    f.heterogeneous |= !m.uniform;
+    f.proven_steps |= !m.uniform && v.step.proven;
     f.chromatic |= !grey(m.sigma_t) || !grey(m.sigma_s) || (m.emission && !grey(*m.emission));
     f.chromatic_extinction |= !grey(m.sigma_t);
     f.medium_emission |= m.emission.has_value();
   }
-  for (const optics::Light& light : world.lights) {
-    std::visit(Overloaded{[&](const optics::PointLight&) { f.delta_lights = true; },
-                          [&](const optics::SpotLight&) { f.delta_lights = true; },
-                          [&](const optics::DistantLight& l) {
-                            (l.angle.radians == 0 ? f.delta_lights : f.distant_discs) = true;
-                          },
-                          [&](const optics::EnvironmentLight&) { f.environment = true; },
-                          [&](const auto&) { f.area_lights = true; }},
-               light);
+  for (const CompiledLight& light : world.lights) {
+    switch (light.kind()) {
+      case LightKind::delta:
+        f.delta_lights = true;
+        break;
+      case LightKind::area:
+        f.area_lights = true;
+        break;
+      case LightKind::distant_disc:
+        f.distant_discs = true;
+        break;
+      case LightKind::environment:
+        f.environment = true;
+        break;
+    }
   }
   for (const scene::Material& m : world.scene.materials) {
     f.surface_emission |= m.emission.has_value();
@@ -196,6 +201,54 @@ Features features_of(const CompiledScene& world) {
   }
   f.motion = moves(world.scene);
   return f;
+}
+
+void add_volumes(CompiledScene& world, const Transform& render_from_world) {
+  const std::vector<scene::Volume> volumes = scene::all_volumes(world.scene);
+  world.volumes.reserve(volumes.size());
+  for (const scene::Volume& v : volumes) {
+    CompiledVolume out;
+    out.medium = v.medium.index;
+    out.render_from_shape = render_from_world * v.world_from_shape;
+    out.shape_from_render = inverse_of(out.render_from_shape);
+    out.medium_from_render = inverse_of(render_from_world * v.world_from_medium);
+    out.step = v.step.value_or(world.scene.settings.step);
+    out.shape = v.shape;
+    out.visible = v.visible;
+    world.volumes.push_back(std::move(out));
+  }
+  for (const auto& v : world.scene.motion.volumes)
+    world.volumes[v.index].motion = std::make_shared<VolumeMotion>(v, world.origin);
+}
+
+// Whether a light's surface is a mesh that deforms.
+bool deforms(const scene::Scene& scene, const scene::Light& light) {
+  const auto* area = std::get_if<scene::AreaLight>(&light);
+  const auto* mesh = area ? std::get_if<scene::Mesh>(&area->shape) : nullptr;
+  return mesh && !scene.meshes[mesh->mesh.index]->later.empty();
+}
+
+// The scene's lights and glowing shapes; the result tells each shape's light, as add_glowing_shapes has it.
+std::vector<std::uint32_t> compile_lights(CompiledScene& world, Kept& kept) {
+  for (const scene::LightInstance& l : world.scene.lights)
+    world.lights.emplace_back(l.light, LightSetting{world.scene, world.origin, &kept.skies});
+  std::erase_if(kept.skies, [](const auto& sky) { return sky.use_count() == 1; });  // nobody's any more
+  std::vector<std::uint32_t> glows = add_glowing_shapes(world.scene, world.origin, world.lights);
+  std::vector<bool> moves(world.lights.size());
+  for (const auto& motion : world.scene.motion.lights) {
+    world.lights[motion.index].moves(&motion);
+    moves[motion.index] = true;
+  }
+  for (std::uint32_t i = 0; i < world.scene.lights.size(); ++i)
+    if (deforms(world.scene, world.scene.lights[i].light)) {
+      world.lights[i].moves(world.lights[i].motion());
+      moves[i] = true;
+    }
+  for (std::uint32_t i = 0; i < world.lights.size(); ++i)
+    if (world.lights[i].toward()) world.distant_lights.push_back(i);
+  if (world.lights.size() > few_lights)
+    world.light_tree = std::make_unique<const LightTree>(world.lights, moves);
+  return glows;
 }
 
 }  // namespace
@@ -216,89 +269,72 @@ void CompiledScene::volume_intervals(const Ray& ray, RayKind kind, std::vector<V
   if (solids) solids->cut(ray, kind, volumes, out);
 }
 
-CompiledVolume::Place CompiledVolume::moved(double time) const {
-  const Transform render_from_world = Transform::translate(-origin);
-  // What is flat for one moment is taken for what it is beside it.
+VolumeMotion::VolumeMotion(const scene::Moving<scene::Volume>& keys, const Vec3d& origin)
+    : number_([] {
+        static std::atomic<std::uint64_t> made{0};
+        return ++made;
+      }()),
+      keys_(&keys),
+      world_from_shape_(keys, 0),
+      world_from_medium_(keys, 1),
+      shape_changes_(scene::moves_within(keys)),
+      origin_(origin) {}
+
+std::optional<scene::Shape> VolumeMotion::shape(double time) const {
+  return shape_changes_ ? std::optional(scene::at(*keys_, time).shape) : std::nullopt;
+}
+
+const VolumeMotion::Place& VolumeMotion::at(double time) const {
+  thread_local std::array<Place, 512> places;  // more than the paths of a thread that are under way
+  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;
+  Place& place = places[((std::bit_cast<std::uint64_t>(time) ^ (number_ * odd)) * odd) >> 55];
+  if (place.motion != number_ || place.time != time)
+    place = {number_, time, from_render(world_from_shape_, time), from_render(world_from_medium_, time)};
+  return place;
+}
+
+Transform VolumeMotion::from_render(const scene::MovingTransform& world_from_this, double time) const {
   for (double beside = 0; beside < 1; beside = beside * 2 + 0x1p-20) {
-    const scene::Volume v = scene::at(*motion, time < 0.5 ? time + beside : time - beside);
-    const auto from_render = (render_from_world * v.world_from_shape).inverse(),
-               to_medium = (render_from_world * v.world_from_medium).inverse();
-    if (from_render && to_medium) return {v.shape, *from_render, *to_medium};
+    Transform render_from_this = world_from_this.at(time < 0.5 ? time + beside : time - beside);
+    render_from_this.t -= origin_;
+    if (const auto inverse = render_from_this.inverse()) return *inverse;
   }
   CHECK(false);  // resolve refuses transforms that flatten space
 }
 
 LightAt::LightAt(const CompiledScene& world, std::uint32_t index, double time)
     : light_(&world.lights[index]) {
-  if (world.light_motion.empty() || !world.light_motion[index]) return;
-  moved_ = moved(nullptr, scene::at(*world.light_motion[index], time), -world.origin);
-  // What it is drawn by stays: a mesh that moves is never drawn (optics::importance), only met.
-  if (auto* mesh = std::get_if<optics::MeshLight>(&*moved_))
-    mesh->emitter = std::get<optics::MeshLight>(*light_).emitter;
-  if (auto* sky = std::get_if<optics::EnvironmentLight>(&*moved_))
-    sky->sky = std::get<optics::EnvironmentLight>(*light_).sky;
+  if (light_->motion()) moved_ = light_->at(time, {world.scene, world.origin});
 }
 
 CompiledScene compile(scene::Scene scene) {
+  Kept nothing;
+  return compile(std::move(scene), nothing);
+}
+
+CompiledScene compile(scene::Scene scene, Kept& kept) {
+  kept.reused_meshes = kept.reused_grids = {};
   CompiledScene world;
   world.scene = std::move(scene);
   world.origin = camera_position(world.scene.camera);
   const Transform render_from_world = Transform::translate(-world.origin);
 
-  for (const scene::LightInstance& l : world.scene.lights)
-    world.lights.push_back(moved(&world.scene, l, -world.origin));
-  const scene::Motion& motion = world.scene.motion;
-  std::vector<bool> light_moves(world.lights.size());
-  for (const auto& light : motion.lights) light_moves[light.index] = true;
-  const std::vector<std::uint32_t> glows = add_glowing_shapes(world.scene, render_from_world, world.lights);
-  light_moves.resize(world.lights.size());
-  for (const optics::Light& light : world.lights) {
-    const auto* mesh = std::get_if<optics::MeshLight>(&light);
-    world.light_errors.push_back(mesh && mesh->emitter
-                                     ? largest_error(mesh->world_from_shape, mesh->emitter->center(),
-                                                     mesh->emitter->radius(), world.origin)
-                                     : 0);
-  }
-  if (!motion.lights.empty()) {
-    world.light_motion.resize(world.lights.size());
-    for (const auto& light : motion.lights) {
-      world.light_motion[light.index] = &light;
-      if (auto* mesh = std::get_if<optics::MeshLight>(&world.lights[light.index])) mesh->drawn = false;
-    }
-  }
-  for (std::uint32_t i = 0; i < world.lights.size(); ++i)
-    if (std::holds_alternative<optics::DistantLight>(world.lights[i])) world.distant_lights.push_back(i);
-  if (world.lights.size() > few_lights)
-    world.light_tree = std::make_unique<const LightTree>(world.lights, light_moves);
-
+  const std::vector<std::uint32_t> glows = compile_lights(world, kept);
   for (const scene::Medium& m : world.scene.media) world.media.push_back(compiled(m));
-  const std::vector<scene::Volume> volumes = scene::all_volumes(world.scene);
-  world.volumes.reserve(volumes.size());
-  for (const scene::Volume& v : volumes) {
-    CompiledVolume out;
-    out.medium = v.medium.index;
-    out.render_from_shape = render_from_world * v.world_from_shape;
-    out.shape_from_render = inverse_of(out.render_from_shape);
-    out.medium_from_render = inverse_of(render_from_world * v.world_from_medium);
-    out.step = v.step.value_or(world.scene.settings.step);
-    out.shape = v.shape;
-    out.visible = v.visible;
-    out.origin = world.origin;
-    world.volumes.push_back(std::move(out));
-  }
-  for (const auto& v : motion.volumes) world.volumes[v.index].motion = &v;
+  add_volumes(world, render_from_world);
 
   for (const scene::Material& m : world.scene.materials)
     world.materials.push_back(compiled(m, world.scene.time));
 
   world.shutter_seconds = scene::shutter_seconds(world.scene.animation);
   world.features = features_of(world);
-  world.geometry = std::make_unique<Geometry>(world.scene, world.features, world.origin, world.lights, glows,
-                                              world.volumes);
+  world.geometry = std::make_unique<Geometry>(world.scene, world.features, world.origin, glows, world.volumes,
+                                              compiled_meshes(world.scene.meshes, kept));
   add_solids(world);
-  if (world.features.layered_surfaces)
-    world.albedo_tables = std::make_unique<const optics::AlbedoTables>(rough_etas(world));
-  add_grids(world);
+  if (world.features.layered_surfaces) world.albedo_tables = albedo_tables(rough_etas(world), kept);
+  add_grids(world, kept);
+  choose_steps(world);
+  kept.forget_the_rest();
   world.coarse_fields = find_coarse_fields(world);
   return world;
 }

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "eval/evaluator.h"
 #include "eval/scope.h"
 #include "eval/value.h"
 #include "syntax/tree.h"
@@ -20,6 +21,7 @@ struct Changes {
     const syntax::Item* item;
     const syntax::AssignItem* assign;
     Value value;
+    Evaluator::Branches branches;
   };
   const Scope* outside = nullptr;
   std::vector<Variable> variables;

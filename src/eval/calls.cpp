@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "base/check.h"
-#include "eval/name_walk.h"
+#include "eval/free_names.h"
 
 namespace tyndall::eval {
 
@@ -64,6 +64,48 @@ class ParameterPlaces {
   std::unordered_map<SymbolId, std::size_t> table_;
 };
 
+constexpr std::size_t no_argument = static_cast<std::size_t>(-1);
+
+// The argument that each parameter gets, by number; nothing after an error.
+std::optional<std::vector<std::size_t>> match_arguments(Evaluator& ev, std::span<const Parameter> parameters,
+                                                        const SyntaxTree& tree,
+                                                        std::span<const Argument> arguments,
+                                                        const std::shared_ptr<Scope>& scope,
+                                                        std::string_view callee) {
+  std::vector<std::size_t> argument_of(parameters.size(), no_argument);
+  ParameterPlaces places(parameters);
+  bool failed = false;
+  std::size_t position = 0;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const Argument& argument = arguments[i];
+    const Span span = argument.name.symbol.valid() ? argument.name.span : tree[argument.value].span;
+    std::size_t index = position;
+    if (argument.name.symbol.valid()) {
+      index = places.find(argument.name.symbol);
+      if (index == parameters.size()) {
+        report_unknown_parameter(ev, callee, argument.name, parameter_names(ev, parameters),
+                                 parameters.empty() ? Span{} : parameters[0].name.span);
+        failed = true;
+        ev.check_names(tree, argument.value, scope);
+        continue;
+      }
+    } else if (position++ >= parameters.size()) {
+      const bool numbers = arguments.size() >= 3 && is_literal(tree, arguments[0].value);
+      ev.error(span, fmt::format("too many arguments for '{}'", callee),
+               listed(parameter_names(ev, parameters)) +
+                   (numbers ? "; a point is one argument, with parentheses of its own: (x, y, z)" : ""));
+      failed = true;
+      break;
+    }
+    if (argument_of[index] != no_argument) {
+      ev.error(span, fmt::format("'{}' is given twice", ev.text(parameters[index].name.symbol)));
+      failed = true;
+    }
+    argument_of[index] = i;
+  }
+  return failed ? std::nullopt : std::optional(std::move(argument_of));
+}
+
 }  // namespace
 
 std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tree, ListRef parameter_list,
@@ -73,38 +115,9 @@ std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tr
                                                  std::string_view callee, Span call) {
   const auto parameters = definition_tree.list_of_parameters(parameter_list);
   const auto arguments = call_tree.list_of_arguments(argument_list);
-  constexpr std::size_t absent = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> argument_of(parameters.size(), absent);
-  ParameterPlaces places(parameters);
+  const auto argument_of = match_arguments(*this, parameters, call_tree, arguments, call_scope, callee);
+  if (!argument_of) return nullptr;
   bool failed = false;
-  std::size_t position = 0;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const Argument& argument = arguments[i];
-    const Span span = argument.name.symbol.valid() ? argument.name.span : call_tree[argument.value].span;
-    std::size_t index = position;
-    if (argument.name.symbol.valid()) {
-      index = places.find(argument.name.symbol);
-      if (index == parameters.size()) {
-        report_unknown_parameter(*this, callee, argument.name, parameter_names(*this, parameters),
-                                 parameters.empty() ? Span{} : parameters[0].name.span);
-        failed = true;
-        check_names(call_tree, argument.value, call_scope);
-        continue;
-      }
-    } else if (position++ >= parameters.size()) {
-      const bool numbers = arguments.size() >= 3 && is_literal(call_tree, arguments[0].value);
-      error(span, fmt::format("too many arguments for '{}'", callee),
-            listed(parameter_names(*this, parameters)) +
-                (numbers ? "; a point is one argument, with parentheses of its own: (x, y, z)" : ""));
-      failed = true;
-      break;
-    }
-    if (argument_of[index] != absent) {
-      error(span, fmt::format("'{}' is given twice", text(parameters[index].name.symbol)));
-      failed = true;
-    }
-    argument_of[index] = i;
-  }
   auto scope = std::make_shared<Scope>();
   scope->parent = definition_scope;
   scope->assignments_end_here = true;
@@ -112,8 +125,8 @@ std::shared_ptr<Scope> Evaluator::bind_arguments(const SyntaxTree& definition_tr
   for (std::size_t i = 0; i < parameters.size() && !failed; ++i) {
     const Parameter& parameter = parameters[i];
     Binding binding{parameter.name.symbol, {}, BindingKind::parameter, parameter.name.span, false};
-    if (argument_of[i] != absent) {
-      evaluate_into(binding, call_tree, arguments[argument_of[i]].value, call_scope, *scope);
+    if ((*argument_of)[i] != no_argument) {
+      evaluate_into(binding, call_tree, arguments[(*argument_of)[i]].value, call_scope, *scope);
     } else if (parameter.default_value.valid()) {
       frames_.push_back({nullptr, call});  // a default sees what the function sees
       evaluate_into(binding, definition_tree, parameter.default_value, scope, *scope);
@@ -222,6 +235,7 @@ Value evaluate_call(Evaluator& ev, const SyntaxTree& tree, const CallExpr& call,
   }
   if (const auto* function = value.get<Function>()) return ev.call(*function, tree, call, name, span, scope);
   if (const auto* image = value.get<Image>()) return look_up(ev, *image, tree, call, name, span, scope);
+  if (const auto* grid = value.get<Grid>()) return look_up(ev, *grid, tree, call, name, span, scope);
   if (const auto* body = value.get<Body>()) return ev.instantiate(*body, tree, call, span, scope);
   return ev.error(callee.span, fmt::format("'{}' is {}, not a function", name, describe(value.type)),
                   value.width() > 0 ? "write * to multiply" : "");

@@ -57,9 +57,19 @@ Handlers transform_handler(std::string_view name);  // builtins_transform.cpp
 Handlers phase_handler(std::string_view name);      // builtins_phase.cpp
 Handlers keys_handler(std::string_view name);       // builtins_keys.cpp
 Handlers image_handler(std::string_view name);      // builtins_image.cpp
+Handlers grid_handler(std::string_view name);       // builtins/grid.cpp
+Handlers list_handler(std::string_view name);       // builtins/lists.cpp
+
+// Of a call of min or max with one list: its least or greatest entry, in each component (builtins/lists.cpp).
+std::optional<Value> extreme_entry(CallSite& site);
 
 // The image at the place that the call's one argument, a pair, names (builtins_image.cpp).
 Value look_up(Evaluator& evaluator, const Image& image, const syntax::SyntaxTree& tree,
+              const syntax::CallExpr& call, std::string_view name, Span span,
+              const std::shared_ptr<Scope>& scope);
+
+// The grid at the place that the call's one argument, a vec, names (builtins/grid.cpp).
+Value look_up(Evaluator& evaluator, const Grid& grid, const syntax::SyntaxTree& tree,
               const syntax::CallExpr& call, std::string_view name, Span span,
               const std::shared_ptr<Scope>& scope);
 

@@ -7,7 +7,8 @@
 #include "base/check.h"
 #include "base/numerics.h"
 #include "eval/evaluator.h"
-#include "eval/name_walk.h"
+#include "eval/free_names.h"
+#include "eval/lists.h"
 #include "syntax/foreign_words.h"
 
 namespace tyndall::eval {
@@ -78,6 +79,7 @@ Value Evaluator::input(Special special) {
       }
       return Value::of(Type::number, {Scalar{0, builder_->input(vm::Input::time)}});
     case Special::frame:
+      ++context_.frame_reads;
       return Value::number(context_.frame);
     case Special::pi:
       return Value::number(pi);
@@ -141,6 +143,16 @@ const syntax::Name* name_defined_by(const syntax::Item& item) {
 
 }  // namespace
 
+// The span of the innermost block that holds the item; the whole file's for what stands in none.
+static Span block_around(const SyntaxTree& tree, std::uint32_t item) {
+  for (const syntax::Block& block : tree.blocks) {
+    const auto items = tree.list_of_items(block.items);
+    if (std::any_of(items.begin(), items.end(), [item](syntax::ItemId id) { return id.index == item; }))
+      return block.span;
+  }
+  return tree[tree.file].span;
+}
+
 std::optional<DefinedElsewhere> Context::defined_elsewhere(SymbolId symbol, const Span& use) const {
   std::optional<DefinedElsewhere> in_a_block;
   for (const SyntaxTree* tree : trees) {
@@ -153,16 +165,31 @@ std::optional<DefinedElsewhere> Context::defined_elsewhere(SymbolId symbol, cons
       if (!name || name->symbol != symbol || around) continue;
       if (std::any_of(in_file.begin(), in_file.end(), [i](syntax::ItemId id) { return id.index == i; }))
         return DefinedElsewhere{name->span, "a definition comes before its uses: move it up"};
+      const Span block = block_around(*tree, i);
+      if (block.source == use.source && block.begin <= use.begin && use.end <= block.end &&
+          use.begin < name->span.begin)
+        return DefinedElsewhere{name->span, "a definition comes before its uses: move it up"};
       if (!in_a_block) in_a_block = {name->span, "it is known in its own block only, below its definition"};
     }
   }
   return in_a_block;
 }
 
+bool Evaluator::report_defined_below(SymbolId symbol, Span span) {
+  if (context_.diagnostics->full()) return false;
+  const auto elsewhere = context_.defined_elsewhere(symbol, span);
+  if (!elsewhere || elsewhere->place.source != span.source || elsewhere->place.begin < span.begin)
+    return false;
+  error(span, fmt::format("'{}' is defined further below", text(symbol)), std::string(elsewhere->help),
+        {{elsewhere->place, "here"}});
+  return true;
+}
+
 Value Evaluator::unknown_name(SymbolId symbol, Span span, const Scope* scope,
                               std::span<const SymbolId> locals, std::optional<BodyKind> inputs) {
   const std::string_view word = text(symbol);
   const Special special = names().special(symbol);
+  if (special != Special::none && report_defined_below(symbol, span)) return {};
   if (special != Special::none) {
     if (in_body() && has_input(body_, special))
       return error(span, fmt::format("a function does not see '{}'", word), "pass it as an argument");
@@ -219,9 +246,11 @@ Value Evaluator::function_of_time(const Binding& binding, Span use) {
 }
 
 Value Evaluator::evaluate_variable(const SyntaxTree& tree, syntax::ExprId expr,
-                                   const std::shared_ptr<Scope>& scope) {
+                                   const std::shared_ptr<Scope>& scope, Value* current) {
   const std::uint64_t reads = context_.time_reads;
-  Value value = evaluate(tree, expr, scope);
+  const auto* entry = std::get_if<WithEntryExpr>(&tree[expr].node);
+  const bool set = entry && current && set_entry(*this, tree, *entry, *current, scope);
+  const Value value = set ? *current : evaluate(tree, expr, scope);
   if (in_body() || !frames_.empty() || context_.time_reads == reads || value.is_error()) return value;
   return error(tree[expr].span, "a `var` of a scene may not depend on `time`",
                "use `let`, or a function: what they give moves while the shutter is open");
@@ -273,14 +302,22 @@ std::string Evaluator::key_of(const Body& body, const Scope& scope) {
   std::string key =
       fmt::format("{}:{}-{}", body.definition.source.index, body.definition.begin, body.definition.end);
   for (const SymbolId symbol : entry->second)
-    if (const Binding* binding = scope.find(symbol)) {
-      fmt::format_to(std::back_inserter(key), ";{}=", symbol.index);
-      context_.names->keys.append(key, binding->value);
-      // Equal when the shutter opens is not equal all the while.
-      if (binding->timed)
-        fmt::format_to(std::back_inserter(key), "({}@{})", binding->timed->expr.index,
-                       fmt::ptr(binding->timed->scope.get()));
-    }
+    if (const Binding* binding = scope.find(symbol)) append_key(key, *binding);
+  return context_.names->keys.shortened(std::move(key));
+}
+
+void Evaluator::append_key(std::string& key, const Binding& binding) {
+  fmt::format_to(std::back_inserter(key), ";{}=", binding.symbol.index);
+  context_.names->keys.append(key, binding.value);
+  // Equal when the shutter opens is not equal all the while.
+  if (binding.timed)
+    fmt::format_to(std::back_inserter(key), "({}@{})", binding.timed->expr.index,
+                   fmt::ptr(binding.timed->scope.get()));
+}
+
+std::string Evaluator::key_of(const Scope& arguments) {
+  std::string key;
+  for (const Binding& binding : arguments.bindings) append_key(key, binding);
   return context_.names->keys.shortened(std::move(key));
 }
 
@@ -324,6 +361,7 @@ bool Evaluator::define(const SyntaxTree& tree, const Item& item, const std::shar
     const Type type = body->kind == BodyKind::medium ? Type::medium : Type::material;
     add(body->name, Value::of_heavy(type, std::move(value)), BindingKind::constant);
   } else if (const auto* object = std::get_if<ObjectItem>(&item.node)) {
+    check_parameters(tree, object->parameters, nullptr);
     add(object->name, Value::of_heavy(Type::object, ObjectDefinition{&tree, object, scope}),
         BindingKind::constant);
   } else {

@@ -8,8 +8,9 @@
 
 #include "base/check.h"
 #include "eval/calls.h"
+#include "eval/lists.h"
 #include "eval/operators.h"
-#include "vm/machine.h"
+#include "vm/run/machine.h"
 
 namespace tyndall::eval {
 
@@ -68,13 +69,11 @@ double at(const RangeValue& range, std::int64_t index) {
   return range.first + range.step * static_cast<double>(index);
 }
 
-// ------------------------------------------------------------------------------------------------------
-// expressions
-
 class Evaluator::Nested {
  public:
   explicit Nested(Evaluator& evaluator) : evaluator_(evaluator) {
-    if (evaluator_.depth_++ == 0 && !evaluator_.in_body()) evaluator_.iterations_ = evaluator_.calls_ = 0;
+    if (evaluator_.depth_++ == 0 && !evaluator_.in_body())
+      evaluator_.iterations_ = evaluator_.calls_ = evaluator_.list_entries_ = 0;
   }
   ~Nested() { --evaluator_.depth_; }
   Nested(const Nested&) = delete;
@@ -140,7 +139,12 @@ struct Dispatch {
                  printable ? "a string must be known when the scene is read"
                            : fmt::format("{} cannot be written into a string", describe(part.type)));
         failed = true;
-      } else if (!append_text(text, part, max_string_bytes)) {
+      } else if (literal.formats[i].given() && (part.width() == 0 || part.type == Type::boolean)) {
+        failed = true;
+        ev.error(place(literal.values[i]), fmt::format("the format of a number for {}", describe(part.type)),
+                 "leave out what follows ':', or format the numbers themselves");
+      } else if (part.type == Type::list ? !append_text(text, part, max_string_bytes)
+                                         : !append_piece(text, text_of(part, literal.formats[i]))) {
         return too_long_a_string();
       }
       if (!append_piece(text, literal.pieces[i + 1])) return {};
@@ -228,25 +232,23 @@ struct Dispatch {
       return ev.error(
           place(e.list), fmt::format("only a list has elements, found {}", describe(list.type)),
           list.type == Type::vec || list.type == Type::pair ? "components are v.x, v.y, v.z" : "");
-    if (index.type != Type::number)
-      return ev.error(place(e.index), fmt::format("an index is a number, found {}", describe(index.type)));
     const std::vector<Value>& elements = list.as_list();
-    if (!index.known() && !elements.empty()) return chosen(elements, index.scalars[0]);
-    const double i = index.as_number();
-    if (i != std::floor(i))
-      return ev.error(place(e.index), fmt::format("an index is a whole number, found {}", text_of(index)),
-                      "floor(x) makes it one");
-    if (i < 0 || i >= static_cast<double>(elements.size()))
-      return ev.error(place(e.index),
-                      fmt::format("index {} in a list of {}", text_of(index), elements.size()),
-                      elements.empty() ? "the list is empty"
-                                       : fmt::format("indices run from 0 to {}", elements.size() - 1));
-    return elements[static_cast<std::size_t>(i)];
+    if (index.type == Type::number && !index.known() && !elements.empty())
+      return chosen(elements, index.scalars[0]);
+    const std::optional<std::size_t> i = place_in(ev, elements, index, place(e.index));
+    return i ? elements[*i] : Value{};
   }
+
+  Value operator()(const WithEntryExpr& e) const { return with_entry(ev, tree, e, span, scope); }
 
   // The element at an index that differs from place to place, rounded down; beyond the ends the first and the
   // last.
   Value chosen(const std::vector<Value>& elements, const Scalar& index) const {
+    if (elements.size() > max_unrolled_iterations)
+      return ev.error(
+          span, fmt::format("an index that differs from place to place, into a list of {}", elements.size()),
+          fmt::format("such a list has at most {} entries; a picture may hold more",
+                      max_unrolled_iterations));
     Value result = elements[0];
     for (std::size_t k = 1; k < elements.size() && !result.is_error(); ++k) {
       const Scalar reached = ev.emit(vm::Op::less_equal, {Scalar{static_cast<double>(k)}, index}, span);
@@ -261,7 +263,7 @@ struct Dispatch {
     const std::string_view letters = ev.text(e.member);
     if (object.type != Type::pair && object.type != Type::vec)
       return ev.error(e.member_span, fmt::format("{} has no '{}'", describe(object.type), letters),
-                      "components belong to pairs and vecs");
+                      ev.help_for_member(e.member, "components belong to pairs and vecs"));
     Value result = Value::of(letters.size() == 1   ? Type::number
                              : letters.size() == 2 ? Type::pair
                                                    : Type::vec,
@@ -269,7 +271,7 @@ struct Dispatch {
     result.unit = object.unit;
     if (letters.size() > 3)
       return ev.error(e.member_span, fmt::format("'{}' has {} letters", letters, letters.size()),
-                      "one, two or three letters choose components");
+                      ev.help_for_member(e.member, "one, two or three letters choose components"));
     for (std::size_t i = 0; i < letters.size(); ++i) {
       const int chosen = component(letters[i]);
       if (chosen < 0 || chosen >= object.width())
@@ -310,13 +312,10 @@ struct Dispatch {
       elements.push_back(value(id));
       failed |= elements.back().is_error();
     }
-    if (failed) return {};
-    Value list = Value::list(std::move(elements));
-    if (list.list_depth > max_list_depth)
-      return ev.error(span, fmt::format("lists nested more than {} deep", max_list_depth),
-                      "join lists side by side, not one within another");
-    return list;
+    return failed ? Value{} : list_of(ev, std::move(elements), span);
   }
+
+  Value operator()(const ComprehensionExpr& e) const { return comprehension(ev, tree, e, span, scope); }
 
   Value operator()(const RangeExpr& e) const {
     RangeValue range;

@@ -15,19 +15,22 @@
 #include "eval/scope.h"
 #include "eval/value.h"
 #include "syntax/tree.h"
-#include "vm/builder.h"
+#include "vm/builder/builder.h"
 
 namespace tyndall::eval {
 
 // Limits of the language, so that no input can exhaust the machine.
-inline constexpr int max_call_depth = 64;               // functions calling functions
-inline constexpr int max_expression_depth = 1000;       // nested evaluations, calls included
-inline constexpr int max_loop_iterations = 100'000;     // one `for` in a function of scene code
-inline constexpr int max_total_iterations = 1'000'000;  // all of them below one outermost evaluation
-inline constexpr int max_unrolled_iterations = 4'096;   // one `for` in a body
-inline constexpr int max_total_unrolled = 65'536;       // all of them in one body
-inline constexpr int max_total_calls = 1'000'000;       // of functions, below one outermost evaluation
-inline constexpr int max_body_calls = 65'536;           // of functions, in one body
+inline constexpr int max_call_depth = 64;                  // functions calling functions
+inline constexpr int max_expression_depth = 1000;          // nested evaluations, calls included
+inline constexpr int max_loop_iterations = 100'000;        // one `for` in a function of scene code
+inline constexpr int max_total_iterations = 1'000'000;     // all of them below one outermost evaluation
+inline constexpr int max_unrolled_iterations = 4'096;      // one `for` in a body
+inline constexpr int max_total_unrolled = 65'536;          // all of them in one body
+inline constexpr int max_list_entries = 1'000'000;         // of a list that is made by `for`, + or append
+inline constexpr int max_total_list_entries = 4'000'000;   // of all of them below one outermost evaluation
+inline constexpr int max_scene_list_entries = 20'000'000;  // of all of them in a scene
+inline constexpr int max_total_calls = 1'000'000;          // of functions, below one outermost evaluation
+inline constexpr int max_body_calls = 65'536;              // of functions, in one body
 inline constexpr int max_octaves = 32;
 inline constexpr std::size_t max_string_bytes = 65'536;
 inline constexpr int max_list_depth = 256;  // lists within each other
@@ -55,13 +58,18 @@ struct Context {
   Diagnostics* diagnostics = nullptr;
   double time = 0;  // seconds, when the shutter opens; or a moment while it is open, when that is asked for
   double frame = 0;
-  bool shutter_open = false;     // for some time: in bodies what depends on `time` is a function of it
-  std::uint64_t time_reads = 0;  // how often scene code asked for `time`, or for what depends on it
-  SourceId main_source{0};       // the file whose unused names are warned of
+  bool shutter_open = false;      // for some time: in bodies what depends on `time` is a function of it
+  double frame_time = 0;          // seconds, whatever moment is asked for
+  double opened = 0;              // seconds, when the shutter opens, whatever moment is asked for
+  double shutter_seconds = 0;     // how long it is open
+  std::uint64_t time_reads = 0;   // how often scene code asked for `time`, or for what depends on it
+  std::uint64_t frame_reads = 0;  // how often scene code or a body asked for `frame`
+  SourceId main_source{0};        // the file whose unused names are warned of
   Unread unread{};
   std::vector<const syntax::SyntaxTree*> trees{};       // that were read so far
   std::unordered_set<syntax::SymbolId> told_unknown{};  // names that are nothing: told once for all uses
   ImageReader* images = nullptr;                        // none: there are no pictures
+  GridReader* grids = nullptr;                          // none: there are no grids
   std::shared_ptr<Names> names{};  // made when first needed; must outlive the values of the run
 
   // For a name that was used in vain at `use`: a definition of it that comes later, or within a block.
@@ -104,9 +112,10 @@ class Evaluator {
   // of it.
   void hold(const Scope& scope, const Value& value);
 
-  // The value of a `var`, which in a scene's own blocks may not depend on `time`: reported.
+  // The value of a `var`, which in a scene's own blocks may not depend on `time`: reported. `current` is the
+  // value that it has; where an entry of it is set it may be changed.
   Value evaluate_variable(const syntax::SyntaxTree& tree, syntax::ExprId expr,
-                          const std::shared_ptr<Scope>& scope);
+                          const std::shared_ptr<Scope>& scope, Value* current = nullptr);
 
   // Evaluates an expression for a binding, and notes there whether it depends on `time`. Scene code only.
   void evaluate_into(Binding& binding, const syntax::SyntaxTree& tree, syntax::ExprId expr,
@@ -121,17 +130,29 @@ class Evaluator {
                                         const std::shared_ptr<Scope>& call_scope, std::string_view callee,
                                         Span call);
 
+  // A text that is equal for equal arguments, as bind_arguments binds them, and only for those.
+  std::string key_of(const Scope& arguments);
+
   // The body with its parameters' defaults, when it is not bound yet; nothing after reporting a parameter
   // without a default. `use` is the place that names the body.
   std::optional<Body> bound(const Body& body, Span use);
 
   // Runs let, var, assignment, if, for and nested def items of a block in order. For bodies `outputs->assign`
-  // is told of an assignment to a name that is no `var` in scope but an output; for function steps there are
-  // none and `return` gives the value.
+  // is told of an assignment to a name that is no `var` in scope but an output, once for all branches of an
+  // `if`; for function steps there are none and `return` gives the value.
+  struct Branches {
+    std::vector<Span> places;  // of the statements that set one output
+    Scalar taken{0};           // the number of the one that did so at a place
+    bool constant = false;     // each sets a constant
+  };
   struct Outputs {
     std::string_view owner;               // the body, as messages name it
     std::vector<std::string_view> names;  // of those that it may set
-    std::function<void(const syntax::Item& item, const syntax::AssignItem& assign, Value value)> assign;
+    // What a statement sets as its output takes it; complains of what it does not take.
+    std::function<Value(const syntax::AssignItem& assign, const Value& value)> read;
+    std::function<void(const syntax::Item& item, const syntax::AssignItem& assign, Value value,
+                       const Branches& branches)>
+        assign;
   };
   // Reports a name that is set but is no output; `variables` are what else may have been meant.
   void report_no_output(const Outputs& outputs, const syntax::Name& name,
@@ -170,8 +191,12 @@ class Evaluator {
               std::vector<Diagnostic::Note> notes = {});
   // The same, unless the message has been reported at any place.
   Value error_once(Span span, std::string message, std::string help, std::vector<Diagnostic::Note> notes);
-  // In scene code: the value, or an error when a scalar of it is not finite.
-  Value finite(const Value& value, Span span);
+  // In scene code: the value, or an error when a scalar of it is not finite. `function`: what it came from.
+  Value finite(const Value& value, Span span, std::string_view function = {});
+  // The way out for `value.name`: the call where the name is a built-in's.
+  std::string help_for_member(syntax::SymbolId member, std::string_view otherwise) const;
+  // True after reporting a name whose definition comes only after its use.
+  bool report_defined_below(syntax::SymbolId symbol, Span span);
 
   // Calls a function value with arguments written in `tree`.
   Value call(const Function& function, const syntax::SyntaxTree& tree, const syntax::CallExpr& call,
@@ -179,6 +204,8 @@ class Evaluator {
 
   // Counts iterations against the limits; reports and gives false past them.
   bool may_iterate(std::int64_t iterations, Span span);
+  // Counts what a list of so many entries takes to be made, likewise.
+  bool may_hold(std::size_t entries, Span span);
 
   // How many errors were reported through this evaluator, repeated ones included.
   int errors_reported() const { return errors_reported_; }
@@ -211,6 +238,7 @@ class Evaluator {
   Value instantiate(const Body& body, const syntax::SyntaxTree& tree, const syntax::CallExpr& call, Span span,
                     const std::shared_ptr<Scope>& scope);
   std::string key_of(const Body& body, const Scope& scope);
+  void append_key(std::string& key, const Binding& binding);
   void check_parameters(const syntax::SyntaxTree& tree, syntax::ListRef parameters,
                         const syntax::BodyKind* body);
 
@@ -220,7 +248,7 @@ class Evaluator {
   std::vector<Frame> frames_;
   int depth_ = 0;
   int errors_reported_ = 0;
-  std::int64_t iterations_ = 0, calls_ = 0;
+  std::int64_t iterations_ = 0, calls_ = 0, list_entries_ = 0, all_list_entries_ = 0;
 };
 
 }  // namespace tyndall::eval

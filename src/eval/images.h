@@ -1,6 +1,7 @@
 // Pictures as values: how the evaluator asks for files without knowing how they are found and read.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace tyndall::eval {
 // What `image("wood.exr")` gives: a picture that is decoded when something first looks it up.
 struct Image {
   std::string path, channel;  // channel: empty for the colour
+  enum class Encoding : std::uint8_t { of_file, srgb, linear } encoding = Encoding::of_file;
   Vec3d factor{1, 1, 1};      // of `0.5 * image(…)`
   Span span;                  // of the call of `image`
 };

@@ -23,6 +23,13 @@ void append_vec(std::string& key, const Vec3d& v) {
   for (std::size_t i = 0; i < 3; ++i) append_number(key, v[i]);
 }
 
+void append_grid(std::string& key, const Grid& grid) {
+  fmt::format_to(std::back_inserter(key), "{}:{}{}:{},{},{}:{},", grid.path.size(), grid.path,
+                 grid.name.size(), grid.name, static_cast<int>(grid.filter), grid.velocity.size(),
+                 grid.velocity);
+  append_number(key, grid.max_speed);
+}
+
 // A definition and the scope it stands in. Definitions keep their scopes for the whole run (Evaluator::bind),
 // so equal addresses are the same scope.
 void append_definition(std::string& key, const Span& span, const Scope* scope) {
@@ -77,15 +84,21 @@ void Keys::append(std::string& key, const Value& value) {
   } else if (const auto* lobes = value.get<std::vector<PhaseLobe>>()) {
     for (const PhaseLobe& lobe : *lobes) {
       key += static_cast<char>('a' + static_cast<int>(lobe.kind));
-      append_vec(key, {lobe.parameters[0].value, lobe.parameters[1].value, lobe.weight.value});
+      for (const Scalar& parameter : lobe.parameters) append_number(key, parameter.value);
+      append_number(key, lobe.weight.value);
     }
   } else if (const auto* shape = value.get<ShapeLiteral>()) {
     append_definition(key, shape->span, shape->scope.get());
   } else if (const auto* object = value.get<ObjectDefinition>()) {
     append_definition(key, object->item->name.span, object->scope.get());
   } else if (const auto* image = value.get<Image>()) {
-    fmt::format_to(std::back_inserter(key), "{}:{}:{},", image->path.size(), image->path, image->channel);
+    fmt::format_to(std::back_inserter(key), "{}:{}:{},{},", image->path.size(), image->path, image->channel,
+                   static_cast<int>(image->encoding));
     append_vec(key, image->factor);
+  } else if (const auto* grid = value.get<Grid>()) {
+    append_grid(key, *grid);
+  } else if (const auto* bounds = value.get<GridBounds>()) {
+    append_grid(key, bounds->grid);
   }
 }
 

@@ -23,7 +23,8 @@ static Handlers handlers_of(const vm::Builtin& row) {
     case vm::Shape::custom:
       break;
   }
-  for (const auto find : {vector_handler, transform_handler, phase_handler, keys_handler, image_handler})
+  for (const auto find : {vector_handler, transform_handler, phase_handler, keys_handler, image_handler,
+                          grid_handler, list_handler})
     if (const Handlers handlers = find(row.name); handlers.bound || handlers.free) return handlers;
   return {};
 }
@@ -38,10 +39,20 @@ Names::Names(syntax::Symbols& symbols) {
       {"P", Special::P},       {"n", Special::n},         {"N", Special::N},   {"uv", Special::uv}};
   for (const auto& [word, special] : words) place(specials, symbols.intern(word), special);
   ease = symbols.intern("ease");
+  filter = symbols.intern("filter");
+  nearest = symbols.intern("nearest");
+  linear = symbols.intern("linear");
+  cubic = symbols.intern("cubic");
+  encoding = symbols.intern("encoding");
+  srgb = symbols.intern("srgb");
   automatic = symbols.intern("auto");
+  step = symbols.intern("step");
+  adaptive = symbols.intern("adaptive");
   multiple_scattering = symbols.intern("multiple_scattering");
   full = symbols.intern("full");
   approximate = symbols.intern("approximate");
+  clamp = symbols.intern("clamp");
+  off = symbols.intern("off");
   for (const auto rows : {vm::builtins(), phase_builtins()})
     for (const vm::Builtin& row : rows) {
       const Handlers handlers = handlers_of(row);

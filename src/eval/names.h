@@ -9,7 +9,7 @@
 #include "eval/keys.h"
 #include "eval/scope.h"
 #include "syntax/tree.h"
-#include "vm/builtins.h"
+#include "vm/program/builtins.h"
 
 namespace tyndall::eval {
 
@@ -46,12 +46,18 @@ struct Names {
   std::vector<Special> specials;  // by symbol
   std::vector<const BuiltinEntry*> builtins_by_symbol;
   std::vector<std::unique_ptr<BuiltinEntry>> builtins;
-  // Words that are looked up before any name: the argument `ease` takes some, `auto` stands for a value, and
-  // the parameter `multiple_scattering` has `full` and `approximate`.
-  syntax::SymbolId ease, automatic, multiple_scattering, full, approximate;
+  // Words that are looked up before any name: the arguments `ease`, `filter` and `encoding` take some, `auto`
+  // stands for a value, the parameter `step` has `adaptive`, `clamp` `off`, and `multiple_scattering` `full`
+  // and `approximate`.
+  syntax::SymbolId ease, filter, nearest, linear, cubic, encoding, srgb, automatic, step, adaptive, clamp,
+      off, multiple_scattering, full, approximate;
+  bool is_filter(syntax::SymbolId word) const { return word == nearest || word == linear || word == cubic; }
+  bool is_encoding(syntax::SymbolId word) const { return word == srgb || word == linear; }
   // Whether a word stands for a choice as the value of a parameter.
   bool is_choice(syntax::SymbolId parameter, syntax::SymbolId word) const {
-    return word == automatic || (parameter == multiple_scattering && (word == full || word == approximate));
+    return word == automatic || (parameter == step && word == adaptive) ||
+           (parameter == clamp && word == off) ||
+           (parameter == multiple_scattering && (word == full || word == approximate));
   }
 
   // Scopes that hold definitions, or expressions that see `time`, are held by them in turn; the run's end

@@ -1,6 +1,8 @@
 // Operators on values.
 #include "eval/operators.h"
 
+#include "eval/lists.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -104,10 +106,15 @@ Value wrong_operands(Evaluator& ev, BinaryOp op, const Value& a, const Value& b,
     help = "values are put into strings with braces: \"leaf{i}.png\"";
   else if (angles && (a.type == Type::number || b.type == Type::number || a.type == b.type))
     help = "divide an angle by 1rad to get its number";
+  else if ((a.type == Type::boolean && b.width() > 0) || (b.type == Type::boolean && a.width() > 0))
+    help = "write if condition then 1 else 0 for a number";
   else if (common_type(a.type, a.type) && common_type(b.type, b.type))
     help = "choose components, for instance v.xy";
   else if (a.type == Type::transform || b.type == Type::transform)
     help = "a transform may be multiplied with a transform or a vec on its right";
+  else if (a.type == Type::list || b.type == Type::list)
+    help = op == BinaryOp::add ? "an entry is added in brackets: list + [x]"
+                               : "make a list of results: [x * 2 for x in list]";
   else if (a.type == Type::function || b.type == Type::function)
     help = "a function must be called, with its arguments in ( )";
   return ev.error(at.whole,
@@ -269,13 +276,15 @@ Value binary(Evaluator& ev, BinaryOp op, const Value& a, const Value& b, const O
   if (plain && a.scalars[0].known() && b.scalars[0].known()) {
     const double result = compute(op, a.scalars[0].value, b.scalars[0].value);
     if (is_comparison(op)) return Value::boolean(result != 0);
-    return ev.finite(Value::number(result), at.whole);
+    return ev.finite(Value::number(result), at.whole, op == BinaryOp::power ? "pow" : "");
   }
   if (is_comparison(op)) return compared(ev, op, a, b, at);
   if (op == BinaryOp::multiply && a.type == Type::transform) {
     if (b.type == Type::transform) return Value::transform(a.as_transform() * b.as_transform());
     if (b.type == Type::vec) return transformed(ev, a.as_transform(), b, true, at.whole);
   }
+  if (op == BinaryOp::add && a.type == Type::list && b.type == Type::list)
+    return joined_lists(ev, a, b, at.whole);
   if (op == BinaryOp::multiply && a.type == Type::image && b.type != Type::image)
     return scaled_image(ev, a, b, at.whole);
   if (op == BinaryOp::multiply && b.type == Type::image && a.type != Type::image)

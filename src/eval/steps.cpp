@@ -6,6 +6,7 @@
 
 #include "eval/branch_changes.h"
 #include "eval/evaluator.h"
+#include "eval/lists.h"
 #include "eval/operators.h"
 #include "eval/symbol_stack.h"
 #include "syntax/foreign_words.h"
@@ -90,8 +91,9 @@ class Steps {
   }
 
   void assign(const Item& item, const AssignItem& assign, const std::shared_ptr<Scope>& scope) {
-    const Value value = ev_.evaluate(tree_, assign.value, scope);
     const Found found = find(assign.name.symbol, scope.get());
+    if (sets_own_entry(found, assign, scope)) return;
+    const Value value = ev_.evaluate(tree_, assign.value, scope);
     if (found.binding && found.binding->kind == BindingKind::variable) {
       set(found, value, assign.name.span);
     } else if (outputs_) {
@@ -111,6 +113,17 @@ class Steps {
       ev_.error(assign.name.span, fmt::format("nothing is named '{}' here", ev_.text(assign.name.symbol)),
                 std::move(help));
     }
+  }
+
+  // `l[i] = x` in place, where nothing else has the list.
+  bool sets_own_entry(const Found& found, const AssignItem& assign, const std::shared_ptr<Scope>& scope) {
+    const auto* entry = std::get_if<WithEntryExpr>(&tree_[assign.value].node);
+    if (!entry || !found.binding || found.binding->kind != BindingKind::variable || found.outside_of_branch)
+      return false;
+    if (!set_entry(ev_, tree_, *entry, found.binding->value, scope)) return false;
+    found.binding->used = true;
+    ev_.hold(*found.scope, found.binding->value);
+    return true;
   }
 
   bool is_output(std::string_view name) const {
@@ -151,10 +164,14 @@ class Steps {
   }
 
   void set_output(const Item& item, const AssignItem& assign, const Value& value) {
+    const Value read = outputs_->read(assign, value);
+    set_output({&item, &assign, read, {{item.span}, Scalar{0}, read.known()}});
+  }
+  void set_output(Changes::Output output) {
     if (branches_.empty())
-      outputs_->assign(item, assign, value);
+      outputs_->assign(*output.item, *output.assign, output.value, output.branches);
     else
-      branches_.back()->outputs.push_back({&item, &assign, value});
+      branches_.back()->outputs.push_back(std::move(output));
   }
 
   std::optional<Value> run_loop(const ForItem& loop, const std::shared_ptr<Scope>& scope) {
@@ -164,14 +181,10 @@ class Steps {
       poison(loop.body, scope);
       return std::nullopt;
     }
-    const auto* range = over.get<RangeValue>();
-    const auto* list = over.get<std::vector<Value>>();
-    if (!range && !list) {
-      ev_.error(span, fmt::format("'for' wants a range or a list, found {}", describe(over.type)),
-                "write for i in 0..<8 { … }");
-      return std::nullopt;
-    }
-    const std::int64_t rounds = range ? count(*range) : static_cast<std::int64_t>(list->size());
+    const std::optional<Rounds> found = rounds_of(ev_, over, span, "for i in 0..<8 { … }");
+    if (!found) return std::nullopt;
+    const RangeValue* range = found->range;
+    const std::int64_t rounds = found->count;
     if (rounds == 0) {
       const auto inner = below(scope);
       inner->bindings.push_back(
@@ -181,7 +194,7 @@ class Steps {
     if (!ev_.may_iterate(rounds, span)) return std::nullopt;
     for (std::int64_t i = 0; i < rounds; ++i) {
       const auto inner = below(scope);
-      const Value value = range ? Value::number(at(*range, i)) : (*list)[static_cast<std::size_t>(i)];
+      const Value value = found->at(i);
       ev_.bind(inner, {loop.name.symbol, value, BindingKind::parameter, loop.name.span, false});
       if (range && range->differs())
         run_round(*range, value.scalars[0], loop, span, inner);
@@ -340,8 +353,20 @@ class Steps {
     for (const Changes::Output& output : a.outputs)
       for (const Changes::Output& other : b.outputs)
         if (other.assign->name.symbol == output.assign->name.symbol)
-          set_output(*output.item, *output.assign,
-                     select(ev_, condition, output.value, other.value, output.item->span));
+          set_output({output.item, output.assign,
+                      select(ev_, condition, output.value, other.value, output.item->span),
+                      either(condition, output.branches, other.branches, output.item->span)});
+  }
+
+  // The statements of both, those of `b` counted after those of `a`.
+  Evaluator::Branches either(const Scalar& condition, const Evaluator::Branches& a,
+                             const Evaluator::Branches& b, Span span) {
+    Evaluator::Branches both = a;
+    both.places.insert(both.places.end(), b.places.begin(), b.places.end());
+    both.constant = a.constant && b.constant;
+    const Scalar behind = sum(ev_, b.taken, Scalar{static_cast<double>(a.places.size())}, span);
+    both.taken = ev_.emit(vm::Op::select, {condition, a.taken, behind}, span);
+    return both;
   }
 
   Evaluator& ev_;

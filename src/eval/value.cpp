@@ -212,6 +212,39 @@ std::string text_of(const Value& value) {
   return {};
 }
 
+void Value::set_own_entry(std::size_t place, Value entry) {
+  CHECK(type == Type::list && heavy.use_count() == 1 && list_depth > entry.list_depth);
+  parts_known &= entry.known();
+  parts_hold_scopes |= entry.holds_scope();
+  // Made as a plain Heavy (of_heavy), and nobody else sees it.
+  auto& entries = std::get<std::vector<Value>>(const_cast<Heavy&>(*heavy));
+  entries[place] = std::move(entry);
+}
+
+std::string text_of(const Value& value, const syntax::NumberFormat& format) {
+  const auto number = [&](double x) {
+    std::string text = format.decimals ? fmt::format("{:.{}f}", x, int{*format.decimals}) : text_of(x);
+    if (text.find_first_not_of("-0.") == std::string::npos && text.starts_with('-'))
+      text.erase(0, 1);  // no -0
+    const bool negative = text.starts_with('-');
+    if (text.size() < format.width) text.insert(negative ? 1 : 0, format.width - text.size(), '0');
+    return text;
+  };
+  const auto& s = value.scalars;
+  switch (value.type) {
+    case Type::number:
+      return number(s[0].value);
+    case Type::angle:
+      return number(s[0].value * (180 / std::numbers::pi)) + "deg";
+    case Type::pair:
+      return fmt::format("({}, {})", number(s[0].value), number(s[1].value));
+    case Type::vec:
+      return fmt::format("({}, {}, {})", number(s[0].value), number(s[1].value), number(s[2].value));
+    default:
+      return text_of(value);
+  }
+}
+
 bool append_text(std::string& text, const Value& value, std::size_t most) {
   if (value.type != Type::list) {
     if (value.type == Type::string && value.as_string().size() > most) return false;

@@ -16,9 +16,11 @@
 #include "base/source.h"
 #include "base/transform.h"
 #include "base/vec.h"
+#include "eval/grids.h"
 #include "eval/images.h"
+#include "optics/phase.h"
 #include "syntax/tree.h"
-#include "vm/builder.h"
+#include "vm/builder/builder.h"
 
 namespace tyndall::eval {
 
@@ -79,8 +81,8 @@ struct Body {
 
 // One lobe of a phase mixture: kind and its parameters, known or computed per segment.
 struct PhaseLobe {
-  enum class Kind : std::uint8_t { isotropic, rayleigh, hg, draine, droplets } kind{};
-  std::array<Scalar, 2> parameters{};  // hg: g; draine: g, a; droplets: diameter [m]
+  optics::PhaseKind kind{};
+  std::array<Scalar, optics::most_phase_parameters> parameters{};
   Scalar weight{1};
   std::vector<Scalar> shares{};  // of mixtures that it is in, as given: those that are not known
 };
@@ -107,8 +109,9 @@ struct RangeValue {
   bool differs() const { return !lane_last.known(); }
 };
 
-using Heavy = std::variant<std::monostate, std::string, Transform, std::vector<Value>, RangeValue, Function,
-                           Body, std::vector<PhaseLobe>, ShapeLiteral, ObjectDefinition, Image>;
+using Heavy =
+    std::variant<std::monostate, std::string, Transform, std::vector<Value>, RangeValue, Function, Body,
+                 std::vector<PhaseLobe>, ShapeLiteral, ObjectDefinition, Image, Grid, GridBounds>;
 
 struct Value {
   Type type = Type::error;
@@ -140,7 +143,7 @@ struct Value {
   static Value of_heavy(Type type, T content) {
     Value v;
     v.type = type;
-    v.heavy = std::make_shared<const Heavy>(std::move(content));
+    v.heavy = std::make_shared<Heavy>(std::move(content));
     return v;
   }
   // The heavy content if it is a T, or nullptr.
@@ -155,10 +158,16 @@ struct Value {
   const std::string& as_string() const;
   const Transform& as_transform() const;
   const std::vector<Value>& as_list() const;
+  // Of a list that shares its entries with no other value, and is deeper than the entry.
+  void set_own_entry(std::size_t place, Value entry);
 };
 
 // The value as "{…}" in a string writes it: numbers at their shortest, integers without a point.
 std::string text_of(const Value& value);
+
+// The value with its numbers, those of angles in degrees, as the format says; lists, strings and booleans as
+// above.
+std::string text_of(const Value& value, const syntax::NumberFormat& format);
 
 // Appends that text. False, with a part of it, when `text` would grow beyond `most` bytes.
 bool append_text(std::string& text, const Value& value, std::size_t most);

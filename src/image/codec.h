@@ -7,30 +7,62 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "image/image.h"
+#include "image/rows.h"
 
 namespace tyndall::image {
 
-enum class Format : std::uint8_t { exr, png };
+enum class Format : std::uint8_t { exr, png, jpeg, tiff };
+
+// OpenImageIO's name of it.
+inline const char* name_of(Format format) {
+  switch (format) {
+    case Format::exr:
+      return "openexr";
+    case Format::png:
+      return "png";
+    case Format::jpeg:
+      return "jpeg";
+    case Format::tiff:
+      return "tiff";
+  }
+  return "";
+}
 
 // The channels to be read of those that a picture has.
 using ChooseChannels = std::vector<std::size_t> (*)(const std::vector<std::string>& channels,
                                                     const void* wish);
 
+// A picture in a file, or in memory, of a format (kinds.h). None: of any that OpenImageIO knows; it is then
+// decoded by one thread, in a process that has no others.
+struct Picture {
+  std::string path, format;
+  std::span<const std::byte> bytes{};
+};
+
 // The module's functions.
 struct Codec {
-  // The file's bytes; gives an error message, or an empty string. PNG samples are `display`, of the whole
-  // picture, EXR those of the image.
-  std::string (*encode)(const Image& image, const std::vector<std::uint8_t>& display,
-                        const Metadata& metadata, Format format, std::vector<unsigned char>& bytes);
+  // The file's bytes, of samples as they are: floats of an EXR, and of others numbers from 0 to 1. Gives an
+  // error message, or an empty string.
+  std::string (*encode)(const Image& image, const Metadata& metadata, Format format,
+                        std::vector<unsigned char>& bytes);
+  // The bytes of an EXR with these texts in place of its own.
+  std::string (*retell)(const Picture& picture, const Metadata& metadata, std::vector<unsigned char>& bytes);
   // The picture of an existing file, its samples as stored (8 bits as 0 to 1).
-  ReadResult (*decode)(const std::string& path);
-  // As read_planes, its numbers as stored. `encoded`: whether those are sRGB's.
-  PlanesResult (*decode_planes)(const std::string& path, ChooseChannels choose, const void* wish,
-                                std::uint64_t most_bytes, bool& encoded);
+  ReadResult (*decode)(const Picture& picture);
+  // Its texts alone.
+  ReadResult (*decode_texts)(const Picture& picture);
+  // The chosen channels' rows, their numbers as stored; why not, or an empty text.
+  std::string (*decode_rows)(const Picture& picture, ChooseChannels choose, const void* wish,
+                             RowTaker& taker);
+  // Fills `to`, of the same channels, with what the other one shows, filtered.
+  std::string (*resize)(const Image& from, Image& to);
+  // Writes a line of text, light, in the middle of a part of an image of R, G and B, as large as fits.
+  std::string (*draw_text)(Image& image, const std::string& text, const Image::Place& part);
 };
 
 // The name under which the module exports its `const Codec`.

@@ -8,13 +8,22 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <numeric>
 #include <span>
 
+#include "image/apart.h"
 #include "image/codec.h"
+#include "image/colors.h"
+#include "image/cut_short.h"
+#include "image/develop.h"
 #include "image/files.h"
+#include "image/kinds.h"
 
 namespace tyndall::image {
 namespace {
+
+// Of an EXR's metadata.
+constexpr std::string_view exposure_entry = "tyndall:exposure", tonemap_entry = "tyndall:tonemap";
 
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -27,13 +36,15 @@ std::optional<Format> format_of(const std::string& path) {
   const std::string extension = extension_of(path);
   if (extension == ".exr") return Format::exr;
   if (extension == ".png") return Format::png;
+  if (extension == ".jpg" || extension == ".jpeg") return Format::jpeg;
+  if (extension == ".tif" || extension == ".tiff") return Format::tiff;
   return std::nullopt;
 }
 
 std::string unknown_format(const std::string& path) {
   const std::string extension = extension_of(path);
   return fmt::format(
-      "'{}' {}: pictures are .exr or .png", path,
+      "'{}' {}: pictures are .exr, .png, .jpg or .tif", path,
       extension.empty() ? "has no extension" : fmt::format("has the unknown extension '{}'", extension));
 }
 
@@ -43,23 +54,22 @@ struct LoadedCodec {
   const Codec* codec = nullptr;
   std::string problem;
 };
+// The loader's own words tell of segments that could not be mapped, where memory has run out.
+std::string why_not_loaded(std::string_view words) {
+  for (const std::string_view of_memory : {"failed to map", "cannot map", "cannot allocate", "cannot create"})
+    if (words.find(of_memory) != std::string_view::npos)
+      return fmt::format("there is not enough memory for the library of picture formats ({})", words);
+  return std::string(words);
+}
 const LoadedCodec& load_codec() {
   static const LoadedCodec loaded = [] {
     LoadedCodec result;
     void* module = ::dlopen(TYNDALL_CODEC_FILE, RTLD_NOW | RTLD_LOCAL);
     if (module != nullptr) result.codec = static_cast<const Codec*>(::dlsym(module, codec_symbol));
-    if (result.codec == nullptr) result.problem = ::dlerror();
+    if (result.codec == nullptr) result.problem = why_not_loaded(::dlerror());
     return result;
   }();
   return loaded;
-}
-
-// IEC 61966-2-1, of a value in [0, 1].
-float srgb_from_linear(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-float linear_from_srgb(float srgb) {
-  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
 }
 
 void make_linear(Image& image) {
@@ -67,66 +77,191 @@ void make_linear(Image& image) {
     if (image.channels[i % image.channels.size()] != "A") image.pixels[i] = linear_from_srgb(image.pixels[i]);
 }
 
-// Whether two channels are called alike, whatever the case.
-bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
+// Makes rows linear on their way.
+class LinearRows final : public RowTaker {
+ public:
+  LinearRows(RowTaker& taker, std::optional<Encoding> encoding) : taker_(taker), encoding_(encoding) {}
 
-// What read_planes reads; `wish` is its channel.
-std::vector<std::size_t> chosen_channels(const std::vector<std::string>& channels, const void* wish) {
-  const auto find = [&](std::string_view name) {
-    std::size_t i = 0;
-    while (i < channels.size() && !same_name(channels[i], name)) ++i;
-    return i;
-  };
-  const std::size_t none = channels.size();
-  const auto& name = *static_cast<const std::string*>(wish);
-  if (!name.empty()) return find(name) == none ? std::vector<std::size_t>{} : std::vector{find(name)};
-  const std::size_t r = find("R"), g = find("G"), b = find("B");
-  if (r != none && g != none && b != none) return {r, g, b};
-  if (channels.size() < 3) return {0};
-  return {0, 1, 2};
-}
-
-std::uint8_t display_byte(float exposed) {
-  if (std::isnan(exposed)) return 0;
-  return static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(std::clamp(exposed, 0.0f, 1.0f))));
-}
-
-// Of the whole picture that the image is (a part of).
-std::vector<std::uint8_t> display_bytes(const Image& image, double exposure) {
-  const auto scale = static_cast<float>(std::exp2(exposure));
-  const Image::Place place = whole_of(image);
-  const std::size_t channels = image.channels.size(),
-                    row = static_cast<std::size_t>(place.whole_width) * channels,
-                    part = static_cast<std::size_t>(image.width) * channels;
-  std::vector<std::uint8_t> bytes(row * static_cast<std::size_t>(place.whole_height));
-  for (int y = 0; y < image.height; ++y) {
-    const auto from = image.pixels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * part);
-    const auto to = bytes.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y + place.y) * row +
-                                                                static_cast<std::size_t>(place.x) * channels);
-    std::transform(from, from + static_cast<std::ptrdiff_t>(part), to,
-                   [scale](float value) { return display_byte(value * scale); });
+  std::string begin(const PictureHeader& header) override {
+    transfer_ = header.transfer;
+    if (encoding_)
+      transfer_ = {*encoding_ == Encoding::srgb ? Transfer::Curve::srgb : Transfer::Curve::linear, 1};
+    for (const std::size_t channel : header.chosen)
+      is_light_.push_back(!same_name(header.channels[channel], "A"));
+    PictureHeader linear = header;
+    linear.transfer = {};
+    return taker_.begin(linear);
   }
-  return bytes;
+  void row(std::span<const float> numbers) override {
+    if (transfer_.curve == Transfer::Curve::linear) return taker_.row(numbers);
+    linear_.assign(numbers.begin(), numbers.end());
+    for (std::size_t i = 0; i < linear_.size(); ++i)
+      if (is_light_[i % is_light_.size()]) linear_[i] = linear(linear_[i]);
+    taker_.row(linear_);
+  }
+
+ private:
+  float linear(float value) const {
+    if (transfer_.curve == Transfer::Curve::srgb) return linear_from_srgb(value);
+    return std::pow(std::max(value, 0.0f), static_cast<float>(transfer_.degree));
+  }
+
+  RowTaker& taker_;
+  std::optional<Encoding> encoding_;
+  Transfer transfer_;
+  std::vector<bool> is_light_;
+  std::vector<float> linear_;
+};
+
+// Keeps them.
+class Planes final : public RowTaker {
+ public:
+  explicit Planes(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
+  std::string begin(const PictureHeader& header) override {
+    result.width = header.width;
+    result.height = header.height;
+    result.channels = header.channels;
+    pixels_ = static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
+    const double bytes = double(header.width) * header.height * static_cast<double>(header.chosen.size() * 4);
+    if (bytes > static_cast<double>(most_bytes_))
+      return fmt::format("its {} x {} pixels take {:.0f} MB of memory, and {} MB are left for pictures",
+                         header.width, header.height, bytes / (1 << 20), most_bytes_ >> 20);
+    for (const std::size_t channel : header.chosen) result.planes.push_back({channel, {}});
+    return {};
+  }
+  // Memory is taken as rows come: a file may claim more than it holds.
+  void row(std::span<const float> numbers) override {
+    for (std::size_t k = 0; k < result.planes.size(); ++k) {
+      std::vector<float>& texels = result.planes[k].texels;
+      texels.reserve(pixels_);
+      for (std::size_t i = k; i < numbers.size(); i += result.planes.size()) texels.push_back(numbers[i]);
+    }
+  }
+
+  PlanesResult result;
+
+ private:
+  std::uint64_t most_bytes_;
+  std::size_t pixels_ = 0;
+};
+
+PlanesResult kept(Planes& planes, std::string error) {
+  if (!error.empty()) planes.result.planes.clear();
+  planes.result.error = std::move(error);
+  return std::move(planes.result);
+}
+
+// What read_rows reads; `wish` is its channel.
+std::vector<std::size_t> chosen_channels(const std::vector<std::string>& channels, const void* wish) {
+  const auto& name = *static_cast<const std::string*>(wish);
+  if (!name.empty()) {
+    const std::size_t found = find_channel(channels, name);
+    return found == channels.size() ? std::vector<std::size_t>{} : std::vector{found};
+  }
+  const ColorChannels colors = color_channels(channels);
+  if (colors.is_grey()) return {colors.rgb[0]};
+  return {colors.rgb.begin(), colors.rgb.end()};
+}
+
+// A message when there is no plain file: pictures are read here and there in theirs, which no pipe allows,
+// and a pipe that nothing writes to would never be open.
+std::string no_plain_file(const std::string& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_regular_file(status)) return {};
+  const std::string_view why = !std::filesystem::exists(status)        ? "no such file"
+                               : std::filesystem::is_directory(status) ? "it is a directory"
+                                                                       : "it is no plain file";
+  return fmt::format("cannot read '{}': {}", path, why);
+}
+
+std::string ends_too_early(const std::string& path) {
+  return fmt::format("cannot read '{}': the file ends too early", path);
+}
+
+// What an EXR's metadata tell of its view.
+void tell(Metadata& metadata, const View& view) {
+  const View usual;
+  if (view.exposure != usual.exposure)
+    metadata.emplace_back(std::string(exposure_entry), describe(view.exposure));
+  if (view.tonemap != usual.tonemap)
+    metadata.emplace_back(std::string(tonemap_entry), std::string(describe(view.tonemap)));
+}
+View told_view(const Metadata& metadata) {
+  View view;
+  for (const auto& [name, value] : metadata) {
+    if (name == exposure_entry) view.exposure = read_exposure(value).value_or(view.exposure);
+    if (name == tonemap_entry) view.tonemap = read_tonemap(value).value_or(view.tonemap);
+  }
+  return view;
 }
 
 }  // namespace
 
-std::string write(const std::string& path, const Image& image, const Metadata& metadata, double exposure) {
+float linear_from_srgb(float srgb) {
+  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+std::string write(const std::string& path, const Image& image, const Metadata& metadata, const View& view) {
   const std::optional<Format> format = format_of(path);
   if (!format) return unknown_format(path);
   const LoadedCodec& loaded = load_codec();
   std::string problem = loaded.problem;
   std::vector<unsigned char> bytes;
   if (problem.empty()) {
-    std::vector<std::uint8_t> display;
-    if (*format == Format::png) display = display_bytes(image, exposure);
-    problem = loaded.codec->encode(image, display, metadata, *format, bytes);
+    Metadata told = metadata;
+    if (*format == Format::exr) tell(told, view);
+    problem = *format == Format::exr ? loaded.codec->encode(image, told, *format, bytes)
+                                     : loaded.codec->encode(develop(image, view), told, *format, bytes);
   }
   if (!problem.empty()) return fmt::format("cannot write '{}': {}", path, problem);
   return write_file_whole(path, std::as_bytes(std::span(bytes)));
+}
+
+std::string encode_png(const Image& image, const View& view, std::vector<unsigned char>& bytes) {
+  const LoadedCodec& loaded = load_codec();
+  return loaded.codec ? loaded.codec->encode(develop(image, view), {}, Format::png, bytes) : loaded.problem;
+}
+
+std::string retell(const std::string& path, const Metadata& metadata, const View& view) {
+  const LoadedCodec& loaded = load_codec();
+  std::string problem = loaded.problem;
+  std::vector<unsigned char> bytes;
+  if (problem.empty()) {
+    Metadata told = metadata;
+    std::erase_if(told, [](const auto& entry) {
+      return entry.first == exposure_entry || entry.first == tonemap_entry;
+    });
+    tell(told, view);
+    problem = loaded.codec->retell({path, name_of(Format::exr)}, told, bytes);
+  }
+  if (!problem.empty()) return fmt::format("cannot write '{}': {}", path, problem);
+  return write_file_whole(path, std::as_bytes(std::span(bytes)));
+}
+
+std::vector<std::uint8_t> display_rgb(const Image& image, const View& view) {
+  const Image shown = develop(image, view);
+  const ColorChannels channels = color_channels(shown.channels);
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(shown.pixels.size() / shown.channels.size() * 3);
+  for (std::size_t i = 0; i < shown.pixels.size(); i += shown.channels.size())
+    for (const std::size_t channel : channels.rgb)
+      bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * shown.pixels[i + channel])));
+  return bytes;
+}
+
+std::string resize(const Image& image, int width, int height, Image& resized) {
+  const LoadedCodec& loaded = load_codec();
+  if (!loaded.codec) return loaded.problem;
+  resized = {width, height, image.channels, {}};
+  resized.pixels.resize(resized.index(0, height, 0));
+  return loaded.codec->resize(image, resized);
+}
+
+std::string draw_text(Image& image, const std::string& text, const Image::Place& part) {
+  const LoadedCodec& loaded = load_codec();
+  return loaded.codec ? loaded.codec->draw_text(image, text, part) : loaded.problem;
 }
 
 std::string check_writable(const std::string& path) {
@@ -134,40 +269,74 @@ std::string check_writable(const std::string& path) {
   return check_file_writable(path);
 }
 
-ReadResult read(const std::string& path) {
+namespace {
+
+using Decode = ReadResult (*Codec::*)(const Picture& picture);
+
+ReadResult decoded(const std::string& path, Decode decode) {
   const std::optional<Format> format = format_of(path);
   if (!format) return {.error = unknown_format(path)};
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    return {.error = fmt::format("cannot read '{}': it is a directory", path)};
-  if (!std::filesystem::exists(path, ignored))
-    return {.error = fmt::format("cannot read '{}': no such file", path)};
+  if (std::string problem = no_plain_file(path); !problem.empty()) return {.error = std::move(problem)};
+  if (is_cut_short(path)) return {.error = ends_too_early(path)};
 
   const LoadedCodec& loaded = load_codec();
-  ReadResult result =
-      loaded.codec != nullptr ? loaded.codec->decode(path) : ReadResult{.error = loaded.problem};
-  if (!result.image) return {.error = fmt::format("cannot read '{}': {}", path, result.error)};
-  if (*format == Format::png) make_linear(*result.image);
+  ReadResult result = loaded.codec != nullptr ? (loaded.codec->*decode)({path, name_of(*format)})
+                                              : ReadResult{.error = loaded.problem};
+  if (!result.error.empty()) return {.error = fmt::format("cannot read '{}': {}", path, result.error)};
+  if (*format == Format::exr)
+    result.view = told_view(result.metadata);
+  else if (result.image)
+    make_linear(*result.image);
   return result;
 }
 
-PlanesResult read_planes(const std::string& path, const std::string& channel, std::uint64_t most_bytes) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    return {.error = fmt::format("cannot read '{}': it is a directory", path)};
-  if (!std::filesystem::exists(path, ignored))
-    return {.error = fmt::format("cannot read '{}': no such file", path)};
+}  // namespace
+
+ReadResult read(const std::string& path) { return decoded(path, &Codec::decode); }
+ReadResult read_metadata(const std::string& path) { return decoded(path, &Codec::decode_texts); }
+
+std::string read_rows(const std::string& path, const std::string& channel, std::optional<Encoding> encoding,
+                      RowTaker& taker) {
+  if (std::string problem = no_plain_file(path); !problem.empty()) return problem;
+  if (is_cut_short(path)) return ends_too_early(path);
   const LoadedCodec& loaded = load_codec();
-  bool encoded = false;
-  PlanesResult result = loaded.codec != nullptr ? loaded.codec->decode_planes(path, chosen_channels, &channel,
-                                                                              most_bytes, encoded)
-                                                : PlanesResult{.error = loaded.problem};
-  if (!result.error.empty()) return {.error = fmt::format("cannot read '{}': {}", path, result.error)};
-  if (encoded)
-    for (ReadPlane& plane : result.planes)
-      if (!same_name(result.channels[plane.channel], "A"))
-        for (float& texel : plane.texels) texel = linear_from_srgb(texel);
-  return result;
+  LinearRows linear(taker, encoding);
+  std::string error = loaded.problem;
+  if (loaded.codec) {
+    const std::string format = robust_format_of_file(path);
+    const auto decode = [&](RowTaker& to) {
+      return loaded.codec->decode_rows({path, format}, chosen_channels, &channel, to);
+    };
+    error = format.empty() ? decode_apart(decode, linear) : decode(linear);
+  }
+  return error.empty() ? error : fmt::format("cannot read '{}': {}", path, error);
+}
+
+std::string read_rows(std::span<const std::byte> bytes, Encoding encoding, RowTaker& taker) {
+  const std::string format = robust_format(bytes);
+  if (format != "png" && format != "jpeg" && format != "webp") return "is no PNG, JPEG or WebP picture";
+  if (is_cut_short(bytes)) return "is a picture that ends too early";
+  const LoadedCodec& loaded = load_codec();
+  const auto all = [](const std::vector<std::string>& channels, const void*) {
+    std::vector<std::size_t> out(channels.size());
+    std::iota(out.begin(), out.end(), std::size_t{0});
+    return out;
+  };
+  LinearRows linear(taker, encoding);
+  const std::string error = loaded.codec
+                                ? loaded.codec->decode_rows({"texture", format, bytes}, all, nullptr, linear)
+                                : loaded.problem;
+  return error.empty() ? error : fmt::format("cannot be read: {}", error);
+}
+
+PlanesResult read_planes(const std::string& path, const std::string& channel, std::uint64_t most_bytes) {
+  Planes planes(most_bytes);
+  return kept(planes, read_rows(path, channel, std::nullopt, planes));
+}
+
+PlanesResult read_texture(std::span<const std::byte> bytes, Encoding encoding, std::uint64_t most_bytes) {
+  Planes planes(most_bytes);
+  return kept(planes, read_rows(bytes, encoding, planes));
 }
 
 }  // namespace tyndall::image

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <ctime>
 #include <system_error>
@@ -12,11 +11,6 @@
 
 namespace tyndall::image {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-// How long a named pipe without a reader is waited for.
-constexpr auto patience = std::chrono::seconds(2);
 
 // While it lives a reader that goes away is an error of write, not a signal that ends the program.
 class NoPipeSignal {
@@ -39,15 +33,13 @@ class NoPipeSignal {
 };
 
 int open_pipe(const std::string& path) {
-  const auto end = Clock::now() + patience;
-  while (true) {
+  for (PipeWait wait;;) {
     const int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
     if (file >= 0) {
       ::fcntl(file, F_SETFL, 0);  // from here on a full pipe is waited for
       return file;
     }
-    if (errno != ENXIO || Clock::now() > end) return -1;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (errno != ENXIO || !wait.goes_on()) return -1;
   }
 }
 
@@ -69,25 +61,32 @@ std::optional<int> standard_stream(const struct stat& file) {
   return std::nullopt;
 }
 
-int write_all(int file, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written >= 0)
-      bytes = bytes.subspan(static_cast<std::size_t>(written));
-    else if (errno != EINTR)
-      return errno;
-  }
+bool PipeWait::goes_on() {
+  if (Clock::now() > end_) return false;
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  return true;
+}
+
+int write_all(int file, std::span<const std::span<const std::byte>> pieces) {
+  for (std::span<const std::byte> bytes : pieces)
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(file, bytes.data(), bytes.size());
+      if (written >= 0)
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+      else if (errno != EINTR)
+        return errno;
+    }
   return ::fsync(file) != 0 && errno != EINVAL && errno != EROFS ? errno : 0;
 }
 
 std::string write_through(const std::string& path, const struct stat& file,
-                          std::span<const std::byte> bytes) {
+                          std::span<const std::span<const std::byte>> pieces) {
   const NoPipeSignal no_signal;
   const int descriptor = open_through(path, file);
   if (descriptor < 0)
     return errno == ENXIO && S_ISFIFO(file.st_mode) ? "nothing reads this pipe"
                                                     : std::generic_category().message(errno);
-  int error_number = write_all(descriptor, bytes);
+  int error_number = write_all(descriptor, pieces);
   if (::close(descriptor) != 0 && error_number == 0) error_number = errno;
   return error_number == 0 ? std::string() : std::generic_category().message(error_number);
 }

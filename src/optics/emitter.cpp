@@ -18,27 +18,28 @@ struct Box {
   }
 };
 
-// A ball that holds the surface, in its own space: where it stands and how large it is.
-Box ball(const Vec3d& center, double radius, const Transform& t) {
+// Of a ball that holds the surface, in its own space.
+Box box_of(const shapes::Ball& ball, const Transform& t) {
   Box box;
+  const double r = ball.radius;
   for (int corner = 0; corner < 8; ++corner)
-    box.add(t.point(center + Vec3d(corner & 1 ? radius : -radius, corner & 2 ? radius : -radius,
-                                   corner & 4 ? radius : -radius)));
+    box.add(t.point(ball.center + Vec3d(corner & 1 ? r : -r, corner & 2 ? r : -r, corner & 4 ? r : -r)));
   return box;
 }
 
 double area_of(const EmitterTriangles& t) { return t.sums.back(); }
-double area_of(const EmitterSphere& s) { return 4 * pi * sqr(s.radius); }
-double area_of(const EmitterDisk& d) { return pi * sqr(d.radius); }
-double area_of(const EmitterCylinder& c) { return 2 * pi * c.radius * (length(c.to - c.from) + c.radius); }
-
-// Even over a disc of radius 1.
-Pair<double> disc_point(double u0, double u1) {
-  const double r = std::sqrt(u0), phi = 2 * pi * u1;
-  return {r * std::cos(phi), r * std::sin(phi)};
+double area_of(const shapes::Shape& shape) {
+  return std::visit(
+      [](const auto& s) -> double {
+        if constexpr (shapes::Sampled<std::decay_t<decltype(s)>>)
+          return s.area();
+        else
+          return 0;
+      },
+      shape);
 }
 
-Emitter::Point draw(const EmitterTriangles& t, double u0, double u1) {
+shapes::SurfacePoint draw(const EmitterTriangles& t, double u0, double u1) {
   const double target = u0 * t.sums.back();
   const auto above = std::upper_bound(t.sums.begin() + 1, t.sums.end() - 1, target);
   const auto i = static_cast<std::size_t>(above - t.sums.begin()) - 1;
@@ -48,33 +49,16 @@ Emitter::Point draw(const EmitterTriangles& t, double u0, double u1) {
   return {a * (1 - s) + b * (s * (1 - u1)) + c * (s * u1), normalize(cross(b - a, c - a))};
 }
 
-Emitter::Point draw(const EmitterSphere& s, double u0, double u1) {
-  const double z = 1 - 2 * u0, r = safe_sqrt(1 - z * z), phi = 2 * pi * u1;
-  const Vec3d n{r * std::cos(phi), r * std::sin(phi), z};
-  return {s.center + n * s.radius, n};
-}
-
-Emitter::Point draw(const EmitterDisk& d, double u0, double u1) {
-  const auto frame = Frame<double>::around(d.normal);
-  const auto [x, y] = disc_point(u0, u1);
-  return {d.center + frame.x * (x * d.radius) + frame.y * (y * d.radius), d.normal};
-}
-
-Emitter::Point draw(const EmitterCylinder& c, double u0, double u1) {
-  const double height = length(c.to - c.from);
-  const Vec3d axis = (c.to - c.from) / height;
-  const auto frame = Frame<double>::around(axis);
-  const double side = height / (height + c.radius), end = (1 - side) / 2;  // shares of the area
-  if (u0 < side) {
-    const double phi = 2 * pi * u1;
-    const Vec3d n = frame.x * std::cos(phi) + frame.y * std::sin(phi);
-    return {c.from + axis * (height * (u0 / side)) + n * c.radius, n};
-  }
-  const bool at_to = u0 >= side + end;
-  const double part = std::clamp((u0 - side - (at_to ? end : 0)) / end, 0.0, 1.0);
-  const auto [x, y] = disc_point(part, u1);
-  return {(at_to ? c.to : c.from) + frame.x * (x * c.radius) + frame.y * (y * c.radius),
-          at_to ? axis : -axis};
+shapes::SurfacePoint draw(const shapes::Shape& shape, double u0, double u1) {
+  return std::visit(
+      [&](const auto& s) -> shapes::SurfacePoint {
+        if constexpr (shapes::Sampled<std::decay_t<decltype(s)>>)
+          return s.sample(u0, u1);
+        else
+          CHECK(false);  // Emitter's constructor refused it
+        return {};
+      },
+      shape);
 }
 
 // Moves the corners to the world, keeps those with an area, and sums them.
@@ -105,11 +89,15 @@ Emitter::Emitter(EmitterSurface surface, const Transform& world_from_object)
                           for (const auto& triangle : t.corners)
                             for (const Vec3d& corner : triangle) box.add(corner);
                         },
-                        [&](const EmitterSphere& s) { box = ball(s.center, s.radius, world_from_object_); },
-                        [&](const EmitterDisk& d) { box = ball(d.center, d.radius, world_from_object_); },
-                        [&](const EmitterCylinder& c) {
-                          box = ball((c.from + c.to) * 0.5, std::hypot(length(c.to - c.from) / 2, c.radius),
-                                     world_from_object_);
+                        [&](const shapes::Shape& shape) {
+                          std::visit(
+                              [&](const auto& s) {
+                                if constexpr (shapes::Sampled<std::decay_t<decltype(s)>>)
+                                  box = box_of(s.ball(), world_from_object_);
+                                else
+                                  CHECK(false);
+                              },
+                              shape);
                         }},
              surface_);
   object_area_ = std::visit([](const auto& s) { return area_of(s); }, surface_);
@@ -120,9 +108,9 @@ Emitter::Emitter(EmitterSurface surface, const Transform& world_from_object)
   radius_ = length(box.hi - box.lo) / 2;
 }
 
-Emitter::Point Emitter::sample(float u0, float u1) const {
+shapes::SurfacePoint Emitter::sample(float u0, float u1) const {
   CHECK(area_ > 0);
-  const Point p = std::visit([&](const auto& s) { return draw(s, u0, u1); }, surface_);
+  const shapes::SurfacePoint p = std::visit([&](const auto& s) { return draw(s, u0, u1); }, surface_);
   return {world_from_object_.point(p.position), normalize(world_from_object_.normal(p.normal))};
 }
 
@@ -130,8 +118,8 @@ Emitter::Point Emitter::sample(float u0, float u1) const {
 double Emitter::pdf_area(const Vec3d& normal) const {
   if (!(area_ > 0)) return 0;
   const Transform& t = world_from_object_;
-  const double stretch = length(Vec3d(dot(t.x, normal), dot(t.y, normal), dot(t.z, normal)));
-  return stretch / (determinant_ * object_area_);
+  const double interval = length(Vec3d(dot(t.x, normal), dot(t.y, normal), dot(t.z, normal)));
+  return interval / (determinant_ * object_area_);
 }
 
 }  // namespace tyndall::optics

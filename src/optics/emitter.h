@@ -1,33 +1,22 @@
 // Surfaces that shine, drawn evenly over their area: what mesh lights and shapes of glowing material are.
 #pragma once
 
-#include <optional>
 #include <variant>
 #include <vector>
 
 #include "base/transform.h"
 #include "base/vec.h"
+#include "shapes/shape.h"
 
 namespace tyndall::optics {
 
-// What an emitter is made of, in its own space. Triangles run counter-clockwise seen from the front.
+// What an emitter is made of: flat faces, or a shape that is drawn over its curved area (shapes::Sampled), in
+// its own space.
 struct EmitterTriangles {
-  std::vector<std::array<Vec3d, 3>> corners;
-  std::vector<double> sums;  // running areas: one more than triangles, from 0; filled by Emitter
+  std::vector<shapes::Triangle> corners;
+  std::vector<double> sums{};  // running areas: one more than triangles, from 0; filled by Emitter
 };
-struct EmitterSphere {
-  Vec3d center;
-  double radius = 0;
-};
-struct EmitterDisk {
-  Vec3d center, normal;  // unit
-  double radius = 0;
-};
-struct EmitterCylinder {  // with both ends
-  Vec3d from, to;
-  double radius = 0;
-};
-using EmitterSurface = std::variant<EmitterTriangles, EmitterSphere, EmitterDisk, EmitterCylinder>;
+using EmitterSurface = std::variant<EmitterTriangles, shapes::Shape>;
 
 class Emitter {
  public:
@@ -35,10 +24,8 @@ class Emitter {
   // sphere is drawn from with a density that varies over it.
   Emitter(EmitterSurface surface, const Transform& world_from_object);
 
-  struct Point {
-    Vec3d position, normal;  // world, unit, outward
-  };
-  Point sample(float u0, float u1) const;
+  // In the world.
+  shapes::SurfacePoint sample(float u0, float u1) const;
   // Density per world area [1/m²] of drawing a point where the surface has this unit normal.
   double pdf_area(const Vec3d& normal) const;
 

@@ -7,8 +7,6 @@ namespace tyndall::optics {
 
 namespace {
 
-double alpha_of(double roughness) { return sqr(roughness); }
-
 // D G2 / (4 o.z i.z) · i.z of reflecting microfacets.
 double reflection_shape(const Vec3d& m, const Vec3d& o, double i_z, double alpha) {
   return ggx_density(m, alpha) * i_z / (2 * (o.z * slope_root(i_z, alpha) + i_z * slope_root(o.z, alpha)));

@@ -4,30 +4,11 @@
 #include <cmath>
 
 #include "base/numerics.h"
-#include "base/overloaded.h"
 #include "base/transform.h"
-#include "optics/emitter.h"
 
 namespace tyndall::optics {
 
 namespace {
-
-double mean(const Rgb& c) { return (double{c.x} + c.y + c.z) / 3; }
-
-LightBounds around(const Vec3d& center, const Vec3d& extent, double intensity) {
-  LightBounds b{center - extent, center + extent};
-  b.theta_o = pi;
-  b.theta_e = pi / 2;
-  b.intensity = intensity;
-  return b;
-}
-
-LightBounds facing(LightBounds b, const Vec3d& normal, double theta_e) {
-  b.axis = normalize(normal);
-  b.theta_o = 0;
-  b.theta_e = theta_e;
-  return b;
-}
 
 // The angle of a cosine, however it was rounded.
 double angle_of(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
@@ -45,35 +26,21 @@ double angle_to_arc(const Vec3d& axis, const Vec3d& a, const Vec3d& b) {
 
 }  // namespace
 
-std::optional<LightBounds> bounds_of(const Light& light) {
-  using Result = std::optional<LightBounds>;
-  const Result bounds = std::visit(
-      Overloaded{[](const PointLight& l) -> Result { return around(l.position, {}, mean(intensity(l))); },
-                 [](const SpotLight& l) -> Result {
-                   const SpotCone spot = cone(l);
-                   return facing(around(l.position, {}, mean(spot.intensity)), spot.axis, l.angle.radians);
-                 },
-                 [](const SphereLight& l) -> Result {
-                   return around(l.center, Vec3d(l.radius), mean(radiance(l)) * pi * sqr(l.radius));
-                 },
-                 [](const QuadLight& l) -> Result {
-                   const Vec3d n = cross(l.u, l.v);
-                   const Vec3d extent{std::abs(l.u.x) + std::abs(l.v.x), std::abs(l.u.y) + std::abs(l.v.y),
-                                      std::abs(l.u.z) + std::abs(l.v.z)};
-                   return facing(around(l.center, extent, mean(radiance(l)) * 4 * length(n)), n, pi / 2);
-                 },
-                 [](const DiskLight& l) -> Result {
-                   return facing(around(l.center, Vec3d(l.radius), mean(radiance(l)) * pi * sqr(l.radius)),
-                                 l.normal, pi / 2);
-                 },
-                 [](const MeshLight& l) -> Result {
-                   if (!l.emitter || !(l.emitter->area() > 0)) return std::nullopt;
-                   return around(l.emitter->center(), Vec3d(l.emitter->radius()),
-                                 mean(radiance(l)) * l.emitter->area() / 2);
-                 },
-                 [](const auto&) -> Result { return std::nullopt; }},
-      light);
-  return bounds && bounds->intensity > 0 ? bounds : std::nullopt;
+LightBounds bounds_around(const Vec3d& center, const Vec3d& extent, double intensity) {
+  LightBounds b{center - extent, center + extent};
+  b.theta_o = pi;
+  b.theta_e = pi / 2;
+  b.intensity = intensity;
+  return b;
+}
+
+LightBounds bounds_facing(const Vec3d& center, const Vec3d& extent, double intensity, const Vec3d& normal,
+                          double theta_e) {
+  LightBounds b = bounds_around(center, extent, intensity);
+  b.axis = normalize(normal);
+  b.theta_o = 0;
+  b.theta_e = theta_e;
+  return b;
 }
 
 LightBounds united(const LightBounds& a, const LightBounds& b) {
@@ -102,7 +69,7 @@ LightBounds united(const LightBounds& a, const LightBounds& b) {
   return out;
 }
 
-double importance(const LightBounds& bounds, const Stretch& s) {
+double importance(const LightBounds& bounds, const RaySegment& s) {
   const Vec3d center = bounds.center();
   const double radius = length(bounds.hi - bounds.lo) / 2;
   const double t = std::clamp(dot(center - s.origin, s.direction), s.t0, std::max(s.t0, s.t1));
@@ -110,7 +77,7 @@ double importance(const LightBounds& bounds, const Stretch& s) {
   const double d_center = length(center - nearest);
   double facing = 1;
   if (bounds.theta_o + bounds.theta_e < pi && d_center > radius) {
-    // Seen from the centre the stretch is an arc; from elsewhere in the box it is turned by at most so much.
+    // Seen from the centre the segment is an arc; from elsewhere in the box it is turned by at most so much.
     const double turned = radius > 0 ? std::asin(radius / d_center) : 0;
     const Vec3d first = s.origin + s.direction * s.t0 - center;
     const Vec3d last = s.t1 < infinity ? s.origin + s.direction * s.t1 - center : s.direction;
@@ -119,10 +86,10 @@ double importance(const LightBounds& bounds, const Stretch& s) {
     if (theta >= bounds.theta_e + 1e-9) return 0;
     facing = std::max(std::cos(theta), 0.1);  // cones of lights wider than a half space shine sideways too
   }
-  const double d = std::max(d_center, radius), stretch = std::max(s.t1 - s.t0, 0.0);
+  const double d = std::max(d_center, radius), interval = std::max(s.t1 - s.t0, 0.0);
   if (!(d > 0)) return bounds.intensity;
-  if (!(stretch < infinity)) return bounds.intensity * facing / d;
-  return bounds.intensity * facing / (d * (d + stretch));
+  if (!(interval < infinity)) return bounds.intensity * facing / d;
+  return bounds.intensity * facing / (d * (d + interval));
 }
 
 }  // namespace tyndall::optics

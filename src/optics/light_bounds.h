@@ -1,13 +1,10 @@
 // Where a light is, how strong, and which way it shines: what choosing among many of them goes by.
 //
 // Nodes of a light tree after Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
-// Splitting" (HPG 2018); here the receiver is a stretch of a ray, of which a point is the shortest.
+// Splitting" (HPG 2018); here the receiver is a segment of a ray, of which a point is the shortest.
 #pragma once
 
-#include <optional>
-
 #include "base/vec.h"
-#include "optics/lights.h"
 
 namespace tyndall::optics {
 
@@ -21,19 +18,22 @@ struct LightBounds {
   Vec3d center() const { return (lo + hi) * 0.5; }
 };
 
-// Nothing for lights at infinity and black ones.
-std::optional<LightBounds> bounds_of(const Light& light);
+// Of a light that shines to all sides from within a box, and of one that shines from one side of a plane or
+// within theta_e of an axis.
+LightBounds bounds_around(const Vec3d& center, const Vec3d& extent, double intensity);
+LightBounds bounds_facing(const Vec3d& center, const Vec3d& extent, double intensity, const Vec3d& normal,
+                          double theta_e);
 // The bounds of both together.
 LightBounds united(const LightBounds& a, const LightBounds& b);
 
-// A stretch of a ray (unit direction), or a point of it: t0 = t1.
-struct Stretch {
+// A segment of a ray (unit direction), or a point of it: t0 = t1.
+struct RaySegment {
   Vec3d origin, direction;
   double t0 = 0, t1 = 0;
 };
 
-// How much the lights within the bounds may bring to the stretch, in the measure of optics::importance. 0
-// only where they cannot reach it at all.
-double importance(const LightBounds& bounds, const Stretch& stretch);
+// How much the lights within the bounds may bring to the segment, in the measure of the lights' own
+// importance. 0 only where they cannot reach it at all.
+double importance(const LightBounds& bounds, const RaySegment& segment);
 
 }  // namespace tyndall::optics

@@ -1,14 +1,13 @@
-// Sampling the lights, seen from a point in the scene.
+// What sampling a light gives, seen from a point in the scene, and what several lights are sampled with.
 //
 // Joint strategies choose the light's point y before the point on the ray (transport §3), so sampling is in
-// two steps: a pivot on the light, then a direction from x towards it.
+// two steps: a pivot on the light, then a direction from x towards it. The lights themselves: compile/lights.
 #pragma once
 
-#include <optional>
-
 #include "base/interval.h"
+#include "base/numerics.h"
 #include "base/vec.h"
-#include "optics/lights.h"
+#include "optics/light_bounds.h"
 
 namespace tyndall::optics {
 
@@ -20,37 +19,10 @@ struct LightSample {
   double pdf_solid_angle = 0;  // of `direction`; 0 for lights of no extent (point, distant with angle 0)
 };
 
-// The point about which equi-angular sampling turns; of mesh lights with the unit normal there.
+// The point about which equi-angular sampling turns; with the unit normal there where light is drawn by area.
 struct Pivot {
   Vec3d position, normal{};
 };
-
-// True when no ray can hit the light: points, and distant lights of angle 0.
-bool is_delta(const Light& light);
-
-// Drawn on a quad, disk or mesh, the centre of a sphere, the point or spot itself. Nothing for lights without
-// a place (distant, environment).
-std::optional<Pivot> sample_pivot(const Light& light, float u0, float u1);
-// True when the pivot is the point of the light's surface that sample_light then aims at.
-bool pivot_on_surface(const Light& light);
-
-// Draws a direction from x to the light, through the pivot where the light is flat or a point, within the
-// cone of a sphere, over the disc of a distant light. Nothing when the light does not reach x (behind a quad,
-// inside a sphere, outside a cone). Environments of one colour are gathered where rays end and are never
-// drawn: nothing.
-std::optional<LightSample> sample_light(const Light& light, const Vec3d& x, const Pivot& pivot, float u0,
-                                        float u1);
-
-// Density per solid angle with which sample_light draws, from x, a direction that meets the light at `y` (of
-// its surface) with unit normal `normal`; averaged over pivots. 0 for lights of no extent.
-double pdf_light(const Light& light, const Vec3d& x, const Vec3d& direction, const Vec3d& y,
-                 const Vec3d& normal);
-
-// Radiance that leaves the light's surface at normal `normal` towards -direction, for rays that hit it.
-Rgb emitted(const Light& light, const Vec3d& direction, const Vec3d& normal);
-
-// Radiance from infinity along a ray's direction: environments, and the discs of distant lights.
-Rgb radiance_from_infinity(const Light& light, const Vec3d& direction);
 
 // The parts of a ray (origin, unit direction, [0, t_max)) that the light's surface can shine on: the front
 // side of a quad or disk, the outside of a sphere, the cone of a spot. At most two, in order.
@@ -58,11 +30,22 @@ struct ReachedParts {
   Intervald parts[2];
   int count = 0;
 };
-// Of a mesh light: the front side of its surface at the pivot.
-ReachedParts reached_parts(const Light& light, const Pivot& pivot, const Vec3d& origin,
-                           const Vec3d& direction, double t_max);
+inline ReachedParts whole_ray(double t_max) { return {{Intervald{0, t_max}, {}}, 1}; }
+// The part of the ray on the side of a plane to which `normal` (of any length) points.
+ReachedParts reached_in_front(const Vec3d& center, const Vec3d& normal, const Vec3d& origin,
+                              const Vec3d& direction, double t_max);
 
-// A rough measure of what the light sends to the ray's stretch [t0, t1): for choosing among lights. >= 0.
-double importance(const Light& light, const Vec3d& origin, const Vec3d& direction, double t0, double t1);
+inline double mean(const Rgb& c) { return (double{c.x} + c.y + c.z) / 3; }
+
+// A rough measure of what a light of mean intensity I [W/sr] at y, of this radius, sends to the segment: its
+// irradiance at the nearest approach.
+double nearest_irradiance(double intensity, double radius, const Vec3d& y, const RaySegment& segment);
+
+// 1 - cos of a cone's half angle from the squared sine: stable for narrow cones.
+inline double one_minus_cos_of(double sin_squared) { return sin_squared / (1 + safe_sqrt(1 - sin_squared)); }
+// Of the cone around an axis whose 1 - cos is m_max.
+inline double cone_solid_angle(double m_max) { return 2 * pi * m_max; }
+// A unit direction within it, uniform in solid angle.
+Vec3d sample_cone(const Vec3d& axis, double m_max, float u0, float u1);
 
 }  // namespace tyndall::optics

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double inv_pi = 1 / pi;
 
-double alpha_of(double roughness) { return sqr(roughness); }
-
 // The part of samples that single scattering gets, of those that multiple scattering gets the rest.
 double single_share(const AlbedoTables& tables, double cosine, double roughness) {
   return tables.reflection(cosine, roughness).white();

@@ -10,6 +10,8 @@
 
 namespace tyndall::optics {
 
+inline double alpha_of(double roughness) { return sqr(roughness); }
+
 // Density of microfacet normals, per steradian and unit of surface.
 double ggx_density(const Vec3d& m, double alpha);
 // √(z² + α²(1 − z²)), in which GGX's shadowing is written: G1(w) = 2 z / (z + slope_root(z)).

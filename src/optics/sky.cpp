@@ -38,10 +38,6 @@ float look_up(const Plane& plane, double u, double v) {
 // The sine of the latitude at the lower end of a row of texels.
 double sine_at(int row, int height) { return std::sin(pi * (double(row) / height - 0.5)); }
 
-Transform world_from_picture(const EnvironmentLight& light) {
-  return light.world_from_sky * Transform::rotate({0, 1, 0}, light.rotation.radians);
-}
-
 // The inverse of a map that keeps lengths.
 Vec3d turned_back(const Transform& t, const Vec3d& v) { return {dot(t.x, v), dot(t.y, v), dot(t.z, v)}; }
 
@@ -49,8 +45,8 @@ Vec3d turned_back(const Transform& t, const Vec3d& v) { return {dot(t.x, v), dot
 // its neighbours 6/8, 1/8 and 1/8 each way. Kept for a few rows at a time.
 class RowMeans {
  public:
-  RowMeans(const EnvironmentLight& light, int rows)
-      : radiance_(light.radiance), width_(radiance_.picture[0]->width), rows_(rows) {
+  RowMeans(const SkyRadiance& radiance, int rows)
+      : radiance_(radiance), width_(radiance_.picture[0]->width), rows_(rows) {
     sums_.resize(static_cast<std::size_t>(width_));
     across_.resize(static_cast<std::size_t>(rows_ + 2) * static_cast<std::size_t>(width_));
   }
@@ -95,18 +91,19 @@ class RowMeans {
 
 }  // namespace
 
-Rgb sky_radiance(const EnvironmentLight& light, const Vec3d& direction) {
-  const ColorPlanes& picture = light.radiance.picture;
-  if (!picture[0]) return light.radiance.color;
-  const Pair<double> place = place_of(turned_back(world_from_picture(light), direction));
+Rgb sky_radiance(const SkyRadiance& radiance, const Transform& world_from_picture, const Vec3d& direction) {
+  const ColorPlanes& picture = radiance.picture;
+  if (!picture[0]) return radiance.color;
+  const Pair<double> place = place_of(turned_back(world_from_picture, direction));
   Rgb result;
   for (std::size_t c = 0; c < 3; ++c)
-    result[c] = light.radiance.color[c] * std::max(0.0f, look_up(*picture[c], place.x, place.y));
+    result[c] = radiance.color[c] * std::max(0.0f, look_up(*picture[c], place.x, place.y));
   return result;
 }
 
-Sky::Sky(const EnvironmentLight& light) : world_from_sky_(world_from_picture(light)) {
-  const ColorPlanes& picture = light.radiance.picture;
+Sky::Sky(const SkyRadiance& radiance, const Transform& world_from_picture)
+    : radiance_(radiance), world_from_picture_(world_from_picture) {
+  const ColorPlanes& picture = radiance.picture;
   CHECK(picture[0] && picture[1] && picture[2]);
   width_ = picture[0]->width;
   height_ = picture[0]->height;
@@ -115,7 +112,7 @@ Sky::Sky(const EnvironmentLight& light) : world_from_sky_(world_from_picture(lig
   rows_ = (height_ + block_ - 1) / block_;
   sums_.assign(static_cast<std::size_t>(rows_) + 1, 0);
   sums_of_rows_.reserve(static_cast<std::size_t>(rows_) * (static_cast<std::size_t>(columns_) + 1));
-  RowMeans means(light, block_);
+  RowMeans means(radiance, block_);
   std::vector<double> heights(static_cast<std::size_t>(block_));  // of rows of texels, in sines of latitude
   for (int row = 0; row < rows_; ++row) {
     double sum = 0;
@@ -168,13 +165,13 @@ Sky::Drawn Sky::sample(float u0, float u1) const {
   const double low = sine_latitude(row), high = sine_latitude(row + 1);
   const double y = low + std::clamp(part_v, 0.0, 1.0) * (high - low), r_xz = safe_sqrt(1 - y * y);
   const Vec3d sky{r_xz * std::sin(phi), y, -r_xz * std::cos(phi)};
-  return {normalize(world_from_sky_.vector(sky)),
+  return {normalize(world_from_picture_.vector(sky)),
           cell_mass(column, row) / (total_ * cell_solid_angle(column, row))};
 }
 
 double Sky::pdf(const Vec3d& direction) const {
   if (!(total_ > 0)) return 0;
-  const Pair<double> place = place_of(turned_back(world_from_sky_, direction));
+  const Pair<double> place = place_of(turned_back(world_from_picture_, direction));
   const int column = std::clamp(static_cast<int>(place.x * width_) / block_, 0, columns_ - 1),
             row = std::clamp(static_cast<int>(place.y * height_) / block_, 0, rows_ - 1);
   return cell_mass(column, row) / (total_ * cell_solid_angle(column, row));

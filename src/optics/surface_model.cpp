@@ -14,6 +14,18 @@ double reflected_part(const AlbedoTables& tables, double f0, double cosine, doub
   return f0 * e.scale + e.bias;
 }
 
+double coat_roughness(const SurfaceParameters& p) {
+  return is_smooth(double{p.coat_roughness}) ? 0.0 : double{p.coat_roughness};
+}
+
+// Of a boundary of relative index `eta`, coloured.
+Rgb colored_f0(double eta, const Rgb& color) {
+  const auto grey = static_cast<float>(sqr((eta - 1) / (eta + 1)));
+  Rgb out;
+  for (std::size_t k = 0; k < 3; ++k) out[k] = std::min(grey * color[k], 1.0f);
+  return out;
+}
+
 double gloss_roughness(const SurfaceParameters& p) { return is_smooth(p.roughness) ? 0.0 : p.roughness; }
 
 // Lobes without a colour of their own are white.
@@ -29,21 +41,25 @@ std::array<double, 4> SurfaceModel::passed(double cosine) const {
   const SurfaceParameters& p = parameters_;
   if (!is_black(p.sheen)) part[1] = 1 - max_component(p.sheen) * tables_->sheen(cosine);
   part[2] = part[1];
-  if (p.coat > 0) part[2] *= 1 - p.coat * reflected_part(*tables_, coat_f0, cosine, coat_roughness);
+  if (p.coat > 0) part[2] *= 1 - p.coat * reflected_part(*tables_, coat_f0, cosine, coat_roughness(p));
   part[3] = part[2];
   if (p.specular > 0)
-    part[3] *= 1 - p.specular * reflected_part(*tables_, gloss_f0_, cosine, gloss_roughness(p));
+    part[3] *= 1 - p.specular *
+                       reflected_part(*tables_, double{max_component(gloss_f0_)}, cosine, gloss_roughness(p));
   return part;
 }
 
 SurfaceModel::SurfaceModel(const AlbedoTables& tables, const SurfaceParameters& parameters, double eta,
                            bool sheet, const Vec3d& o)
-    : tables_(&tables), parameters_(parameters), gloss_f0_(sqr((eta - 1) / (eta + 1))), o_(o) {
+    : tables_(&tables),
+      parameters_(parameters),
+      gloss_f0_(colored_f0(eta, parameters.specular_color)),
+      o_(o) {
   const SurfaceParameters& p = parameters_;
   passed_o_ = passed(o.z);
   const float rest = 1 - p.metallic, opaque = rest * (1 - p.transmission), clear = rest * p.transmission;
   if (!is_black(p.sheen)) add(Sheen{}, p.sheen, Under::nothing);
-  if (p.coat > 0) add(Reflection{Rgb(float(coat_f0)), coat_roughness, false}, Rgb(p.coat), Under::sheen);
+  if (p.coat > 0) add(Reflection{Rgb(float(coat_f0)), coat_roughness(p), false}, Rgb(p.coat), Under::sheen);
   if (p.metallic > 0) add(Reflection{p.base_color, p.roughness, true}, Rgb(p.metallic), Under::coat);
   if (clear > 0) {
     transmits_ = true;
@@ -53,11 +69,10 @@ SurfaceModel::SurfaceModel(const AlbedoTables& tables, const SurfaceParameters& 
       add(Glass{eta, p.roughness, square_root(p.base_color)}, Rgb(clear), Under::coat);
   }
   if (opaque > 0) {
-    if (p.specular > 0)
-      add(Reflection{Rgb(float(gloss_f0_)), p.roughness, false}, Rgb(p.specular * opaque), Under::coat);
+    if (p.specular > 0) add(Reflection{gloss_f0_, p.roughness, false}, Rgb(p.specular * opaque), Under::coat);
     if (is_black(p.sheen) && p.coat == 0) {
       const AlbedoTables::Reflection e = tables.reflection_average(gloss_roughness(p));
-      gloss_passed_average_ = 1 - p.specular * (gloss_f0_ * e.scale + e.bias);
+      gloss_passed_average_ = 1 - p.specular * (double{max_component(gloss_f0_)} * e.scale + e.bias);
     } else {
       // 2 ∫ passed μ dμ by Gauss and Legendre's rule of five points.
       constexpr double x[] = {0.0469100770306680, 0.2307653449471585, 0.5, 0.7692346550528415,

@@ -14,20 +14,23 @@
 
 namespace tyndall::optics {
 
+// The lacquer of `coat`: of index 1.5, and this rough unless it is told otherwise.
+inline constexpr float nearly_polished = 0.03f;
+inline constexpr double coat_f0 = 0.04;
+
 // A material's outputs. `ior` is not among them: a surface knows the ratio of both its sides.
 struct SurfaceParameters {
   Rgb base_color{0.8f};
   float metallic = 0, roughness = 0, specular = 0, transmission = 0, coat = 0;
   Rgb sheen{0};
+  Rgb specular_color{1};  // times the gloss's reflectance at normal incidence, which stays below 1
+  float coat_roughness = nearly_polished;
 
   // Nothing but the matte ground.
   bool diffuse() const {
     return metallic == 0 && specular == 0 && transmission == 0 && coat == 0 && is_black(sheen);
   }
 };
-
-// The lacquer of `coat`: nearly polished, of index 1.5.
-inline constexpr double coat_roughness = 0.03, coat_f0 = 0.04;
 
 struct SurfaceSample {
   Vec3d direction;
@@ -71,7 +74,7 @@ class SurfaceModel {
 
   const AlbedoTables* tables_;
   SurfaceParameters parameters_;
-  double gloss_f0_ = 0;
+  Rgb gloss_f0_;
   Vec3d o_;
   std::array<double, 4> passed_o_{};
   double gloss_passed_average_ = 1;

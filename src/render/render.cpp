@@ -5,13 +5,15 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
-#include <set>
+#include <optional>
+#include <utility>
 
 #include "base/check.h"
 #include "base/parallel.h"
-#include "render/adaptive.h"
-#include "render/deadline.h"
-#include "render/path.h"
+#include "render/context/deadline.h"
+#include "render/film/adaptive_sampling.h"
+#include "render/path/path_settings.h"
+#include "render/run_counts.h"
 #include "render/worker.h"
 
 namespace tyndall::render {
@@ -35,60 +37,6 @@ std::vector<Tile> tiles_of(const PixelWindow& crop) {
 // to within a pass.
 int pass_length(int done, int rest) { return std::min({done == 0 ? 1 : done, 16, rest}); }
 
-// Adds what a worker's machine ran of each shader.
-void sum_lanes(Statistics& total, const Worker& worker, const scene::Scene& scene) {
-  total.medium_lanes.resize(2 * scene.media.size());
-  total.material_lanes.resize(scene.materials.size());
-  std::set<std::uint64_t> seen;
-  const auto add = [&](std::vector<std::uint64_t>& sum, const vm::Program& program) {
-    sum.resize(program.lane_code.size());
-    if (!seen.insert(program.fingerprint).second) return;
-    const std::vector<std::uint64_t> lanes = worker.machine.lanes_run(program);
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += lanes[i];
-  };
-  for (std::size_t i = 0; i < scene.media.size(); ++i) {
-    add(total.medium_lanes[2 * i], scene.media[i].full);
-    add(total.medium_lanes[2 * i + 1], scene.media[i].extinction);
-  }
-  for (std::size_t i = 0; i < scene.materials.size(); ++i)
-    add(total.material_lanes[i], scene.materials[i].program);
-}
-
-// Adds what a worker counted.
-void sum_into(Statistics& total, const Worker& worker) {
-  const Statistics& s = worker.statistics;
-  total.samples += s.samples;
-  total.rays += s.rays;
-  total.shadow_rays += s.shadow_rays;
-  total.marches += s.marches;
-  total.segments += s.segments;
-  total.cut_majorants += s.cut_majorants;
-  total.widened_steps.add_all(s.widened_steps);
-  total.missed_tolerances.add_all(s.missed_tolerances);
-  total.cut_paths += s.cut_paths;
-  total.cut_throughput += s.cut_throughput;
-  total.bad_samples += s.bad_samples;
-  total.clipped_samples += s.clipped_samples;
-  total.light += s.light;
-  total.lost_light += s.lost_light;
-  total.vm_runs += worker.machine.counters().runs;
-  total.lanes_issued += worker.machine.counters().lanes_issued;
-  total.lanes_used += worker.machine.counters().lanes_used;
-  total.vm_instructions += worker.machine.counters().instructions;
-  const auto& bad = s.first_bad_sample;
-  if (bad && (!total.first_bad_sample || *bad < *total.first_bad_sample)) total.first_bad_sample = bad;
-}
-
-// Indices of refraction are found out when the scene is compiled.
-void note_bad_iors(const CompiledScene& world, BadValueCounts& counts) {
-  for (std::uint32_t i = 0; i < world.materials.size(); ++i)
-    if (const auto ior = world.materials[i].bad_ior)
-      counts.add_material(i, *world.scene.materials[i].ior,
-                          std::isnan(*ior) ? BadValue::Kind::undefined
-                          : *ior < 1       ? BadValue::Kind::below
-                                           : BadValue::Kind::above);
-}
-
 // What the film's range loses of a sample.
 void note_film_range(const Rgb& radiance, Statistics& statistics) {
   const Vec3d light(radiance);
@@ -103,7 +51,7 @@ void note_film_range(const Rgb& radiance, Statistics& statistics) {
   }
 }
 
-// Most samples a pixel when only an error or a time says when to end.
+// Most samples per pixel when only an error or a time says when to end.
 constexpr int most_samples_for_a_goal = 1 << 16;
 
 int most_samples(const CompiledScene& world, const RenderOptions& options) {
@@ -114,26 +62,34 @@ int most_samples(const CompiledScene& world, const RenderOptions& options) {
 // One render's shared state.
 class Render {
  public:
-  Render(const CompiledScene& world, const RenderOptions& options, const Progress& progress)
+  Render(const CompiledScene& world, const RenderOptions& options, const Progress& progress,
+         std::optional<Unfinished> from)
       : world_(world),
         options_(options),
         progress_(progress),
         settings_(path_settings(world, options)),
         camera_(world),
-        film_(world.scene.settings.width, world.scene.settings.height, settings_.groups, options.aovs,
-              options.crop),
+        film_(from ? std::move(from->film)
+                   : Film(world.scene.settings.resolution.width, world.scene.settings.resolution.height,
+                          settings_.groups, options.aovs, options.crop)),
         tiles_(tiles_of(film_.window())),
         most_samples_(most_samples(world, options)) {
+    if (from) {
+      rest_ = std::move(from->rest);
+      ByteReader in(rest_);
+      CHECK(before_.restore(in, world));
+      samples_done_ = before_.sums.samples;
+    }
     deadline_.stop = options.stop;
     // A limit that the clock cannot hold is none.
     constexpr double longest = 1e9;
     if (options.time_limit && *options.time_limit < longest)
       deadline_.end = start_ + std::chrono::duration_cast<Clock::duration>(
-                                   std::chrono::duration<double>(*options.time_limit));
+                                   std::chrono::duration<double>(*options.time_limit - before_.sums.seconds));
     for (int i = 0; i < loop_workers(tiles_.size(), options.threads); ++i) {
-      workers_.push_back(std::make_unique<Worker>());
-      workers_.back()->skips_empty = options.skip_empty;
-      workers_.back()->machine.observe(options.shader_observer);
+      workers_.push_back(std::make_unique<Worker>(world, camera_, settings_));
+      workers_.back()->thread.skips_empty = options.skip_empty;
+      workers_.back()->thread.machine.observe(options.shader_observer);
     }
     for (const Tile& tile : tiles_) {
       pixels_ += static_cast<std::uint64_t>(tile.pixels());
@@ -146,7 +102,8 @@ class Render {
     else
       run_uniform();
     Statistics total = statistics();  // which looks at the film
-    return {std::move(film_), std::move(total)};
+    std::string rest = this->rest();
+    return {std::move(film_), std::move(total), std::move(rest)};
   }
 
  private:
@@ -155,17 +112,29 @@ class Render {
   // Passes over the whole picture, the same samples for every pixel.
   void run_uniform() {
     fraction_scale_ = 1 / (static_cast<double>(pixels_) * most_samples_);
-    for (int done = 0; done < most_samples_ && !stopped();) {
+    for (int done = samples_of_all(); done < most_samples_ && !stopped();) {
       const int length = affordable(pass_length(done, most_samples_ - done));
       if (length == 0) break;
-      const auto first = static_cast<std::uint64_t>(options_.first_sample + done);
       render_pass([&](std::size_t i, std::vector<CameraSample>& samples) {
-        add_samples(tiles_[i], samples, length, [&](int k) { return first + static_cast<std::uint64_t>(k); });
+        // A pass that was broken off has been through some tiles.
+        const int taken = samples_of(tiles_[i]);
+        const auto first =
+            static_cast<std::uint64_t>(options_.first_sample) + static_cast<std::uint64_t>(taken);
+        add_samples(tiles_[i], samples, done + length - taken,
+                    [&](int k) { return first + static_cast<std::uint64_t>(k); });
       });
       if (uneven_) break;
       done += length;
       if (done < most_samples_) end_pass();
     }
+  }
+
+  // Samples of each pixel of a tile, and of each pixel at least.
+  int samples_of(const Tile& tile) const { return static_cast<int>(film_.samples(tile.x0, tile.y0)); }
+  int samples_of_all() const {
+    int least = most_samples_;
+    for (const Tile& tile : tiles_) least = std::min(least, samples_of(tile));
+    return least;
   }
 
   // As many samples as a pass can take within the time limit, judged by the passes before; at least one in
@@ -182,11 +151,14 @@ class Render {
 
   // Passes in which each half of each tile takes as many samples as the plan says.
   void run_adaptive() {
-    AdaptivePlan plan(tiles_.size(), *options_.error, most_samples_);
+    AdaptivePlan& plan = plan_.emplace(tiles_, *options_.error, most_samples_);
+    restore_plan();
     while (!plan.done() && !stopped()) {
       out_of_time_ = options_.time_limit && seconds() >= *options_.time_limit;
       if (out_of_time_) break;
       render_pass([&](std::size_t i, std::vector<CameraSample>& samples) {
+        // A pass that was broken off has been through some tiles.
+        if (film_.samples(tiles_[i].x0, tiles_[i].y0) == plan.taken_after(i)) return;
         for (int half = 0; half < 2; ++half) {
           const SampleRun run = plan.run(i, half);
           add_samples(tiles_[i], samples, run.count,
@@ -195,11 +167,20 @@ class Render {
       });
       if (uneven_) break;
       plan.finish_pass(film_, tiles_);
-      estimated_error_ = plan.estimated_error();
-      outlier_share_ = plan.outlier_share();
       fraction_scale_ = plan.fraction_done() / static_cast<double>(samples_done_.load());
       if (!plan.done()) end_pass();
     }
+  }
+
+  // What the passes of earlier runs decided.
+  void restore_plan() {
+    if (rest_.empty()) return;
+    ByteReader in(rest_);
+    RunCounts counts_before_it;
+    CHECK(counts_before_it.restore(in, world_));
+    CHECK(plan_->restore(in));
+    fraction_scale_ =
+        plan_->fraction_done() / static_cast<double>(std::max(samples_done_.load(), std::uint64_t{1}));
   }
 
   template <class SampleNumber>
@@ -210,58 +191,89 @@ class Render {
         for (int k = 0; k < count; ++k) samples.push_back({x, y, number(k)});
   }
 
-  // Renders what list(tile, samples) asks for.
+  // Renders what list(tile, samples) asks for; of a tile that has it nothing.
   template <class List>
   void render_pass(List&& list) {
-    const int threads = parallel_for(tiles_.size(), options_.threads, [&](std::size_t i, int w) {
-      Worker& worker = *workers_[w];
-      worker.tile_samples.clear();
-      list(i, worker.tile_samples);
-      if (worker.tile_samples.empty()) return;
-      if (deadline_.passed() || !render_samples(worker))
-        uneven_ = true;
-      else
-        report(samples_done_.fetch_add(worker.tile_samples.size()) + worker.tile_samples.size());
-    });
-    threads_ = std::max(threads_, threads);
-    threads_missed_ = std::max(threads_missed_, loop_workers(tiles_.size(), options_.threads) - threads);
+    for (bool whole = false; !whole;) {
+      std::atomic<bool> paused{false}, worked{false};
+      const int threads = parallel_for(tiles_.size(), options_.threads, [&](std::size_t i, int w) {
+        if (paused) return;
+        Worker& worker = *workers_[w];
+        worker.samples.clear();
+        list(i, worker.samples);
+        if (worker.samples.empty()) return;
+        if (deadline_.passed())
+          uneven_ = true;
+        else if (worked && wants_pause())
+          paused = true;
+        else if (!render_samples(worker))
+          uneven_ = true;
+        else
+          report(samples_done_.fetch_add(worker.samples.size()) + worker.samples.size());
+        worked = true;  // or the next pause could come before anything is done
+      });
+      threads_ = std::max(threads_, threads);
+      threads_missed_ = std::max(threads_missed_, loop_workers(tiles_.size(), options_.threads) - threads);
+      whole = !paused || uneven_;
+      if (!whole) pause();
+    }
     out_of_time_ |= uneven_ && !stopped();
+  }
+
+  bool wants_pause() const { return progress_.wants_pause && progress_.wants_pause(seconds()); }
+  // Within a pass, while no thread is at work.
+  void pause() {
+    uneven_ = true;
+    end_pass();
+    uneven_ = false;
   }
 
   // False when the deadline passed before all paths ended: none of them is counted.
   bool render_samples(Worker& worker) {
-    const std::vector<CameraSample>& samples = worker.tile_samples;
-    const std::uint64_t samples_before = worker.statistics.samples;
-    worker.tile_radiance.resize(samples.size());
-    worker.tile_aovs.resize(options_.aovs.recorded() ? samples.size() : 0);
-    if (!trace_paths(world_, camera_, settings_, samples, worker,
-                     {worker.tile_radiance, worker.tile_aovs, nullptr, &deadline_})) {
-      worker.statistics.samples = samples_before;
+    const std::vector<CameraSample>& samples = worker.samples;
+    const std::uint64_t samples_before = worker.thread.statistics.samples;
+    worker.radiance.resize(samples.size());
+    worker.aovs.resize(options_.aovs.recorded() ? samples.size() : 0);
+    if (!worker.tracer.trace(samples, {worker.radiance, worker.aovs, nullptr, &deadline_}, worker.thread)) {
+      worker.thread.statistics.samples = samples_before;
       return false;
     }
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      add(samples[i], worker.tile_radiance[i], worker);
-      if (!worker.tile_aovs.empty()) film_.add(samples[i].x, samples[i].y, worker.tile_aovs[i]);
+      add(samples[i], worker.radiance[i], worker);
+      if (!worker.aovs.empty())
+        film_.add(samples[i].x, samples[i].y, worker.aovs[i], group_of(samples[i].sample));
     }
     return true;
   }
 
+  int group_of(std::uint64_t sample) const {
+    return static_cast<int>(sample % static_cast<std::uint64_t>(settings_.groups));
+  }
+
   void add(const CameraSample& s, const Rgb& radiance, Worker& worker) {
-    const int group = static_cast<int>(s.sample % static_cast<std::uint64_t>(settings_.groups));
+    const int group = group_of(s.sample);
     if (all_finite(radiance)) {
       film_.add(s.x, s.y, radiance, group);
-      note_film_range(radiance, worker.statistics);
+      note_film_range(radiance, worker.thread.statistics);
       return;
     }
     film_.add(s.x, s.y, Rgb{}, group);
-    ++worker.statistics.bad_samples;
+    ++worker.thread.statistics.bad_samples;
     const Statistics::BadSample bad{s.sample, s.y, s.x};
-    auto& first = worker.statistics.first_bad_sample;
+    auto& first = worker.thread.statistics.first_bad_sample;
     if (!first || bad < *first) first = bad;
   }
 
   void end_pass() {
-    if (progress_.pass && !stopped()) progress_.pass(film_, statistics());
+    if (progress_.pass && !stopped()) progress_.pass(film_, statistics(), rest());
+  }
+
+  // What an Unfinished has beside the film: what was counted, and what was decided of the samples to come.
+  std::string rest() const {
+    ByteWriter out;
+    counts().save(out);
+    if (plan_) plan_->save(out);
+    return out.bytes();
   }
 
   void report(std::uint64_t done) {
@@ -276,31 +288,30 @@ class Render {
     progress_.report(std::min(fraction, 1.0), static_cast<double>(done) / seconds());
   }
 
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  // Of all runs.
+  double seconds() const {
+    return before_.sums.seconds + std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
+  RunCounts counts() const {
+    RunCounts all = before_;
+    for (const auto& worker : workers_) all.add(worker->thread, world_);
+    all.sums.seconds = seconds();
+    return all;
+  }
 
   Statistics statistics() const {
-    Statistics total;
-    BadValueCounts bad_values;
-    for (const auto& worker : workers_) {
-      sum_into(total, *worker);
-      sum_lanes(total, *worker, world_.scene);
-      bad_values.add_all(worker->bad_values);
-    }
-    if (total.samples > 0) total.cut_throughput /= static_cast<double>(total.samples);
-    note_bad_iors(world_, bad_values);
-    total.bad_values = bad_values.list(world_.scene);
-    for (const compile::CoarseField& field : world_.coarse_fields)
-      total.bad_values.push_back(
-          {BadValue::Kind::coarse, field.span, field.shader, 0, field.name, 0, double{field.reach}});
-    total.seconds = seconds();
+    Statistics total = counts().finished(world_);
     total.stopped = stopped();
     total.out_of_time = out_of_time_;
     total.uneven = uneven_;
     if (uneven_ || total.samples < pixels_) total.pixels_without_samples = film_.pixels_without_samples();
     total.threads = threads_;
     total.threads_missed = threads_missed_;
-    total.estimated_error = estimated_error_;
-    total.outlier_share = outlier_share_;
+    if (plan_) {
+      total.estimated_error = plan_->estimated_error();
+      total.outlier_share = plan_->outlier_share();
+    }
     return total;
   }
 
@@ -316,7 +327,9 @@ class Render {
   std::vector<std::unique_ptr<Worker>> workers_;
   std::atomic<std::uint64_t> samples_done_{0};
   double fraction_scale_ = 0;  // of the work, per sample
-  double estimated_error_ = 0, outlier_share_ = 0;
+  std::optional<AdaptivePlan> plan_;
+  RunCounts before_;  // of earlier runs
+  std::string rest_;  // of the Unfinished that they left
   bool out_of_time_ = false;
   std::atomic<bool> uneven_{false};
   int threads_ = 0, threads_missed_ = 0;  // most of a pass
@@ -328,20 +341,38 @@ class Render {
 
 }  // namespace
 
-RenderResult render(const CompiledScene& world, const RenderOptions& options, const Progress& progress) {
-  return Render(world, options, progress).run();
+RenderResult render(const CompiledScene& world, const RenderOptions& options, const Progress& progress,
+                    std::optional<Unfinished> from) {
+  return Render(world, options, progress, std::move(from)).run();
+}
+
+bool fits(const CompiledScene& world, const RenderOptions& options, const Unfinished& from) {
+  const auto [width, height] = world.scene.settings.resolution;
+  const Film& film = from.film;
+  const PixelWindow window = options.crop.value_or(PixelWindow{0, 0, width, height});
+  if (film.width() != width || film.height() != height || film.window() != window ||
+      film.groups() != sample_groups(options) || film.aovs().bits() != options.aovs.bits())
+    return false;
+  ByteReader in(from.rest);
+  RunCounts counts;
+  if (!counts.restore(in, world)) return false;
+  if (options.error) {
+    AdaptivePlan plan(tiles_of(window), *options.error, most_samples(world, options));
+    if (!plan.restore(in)) return false;
+  }
+  return in.done();
 }
 
 Replay replay(const CompiledScene& world, const RenderOptions& options, int x, int y, std::uint64_t sample) {
   const CameraRays camera(world);
-  Worker worker;
-  worker.skips_empty = options.skip_empty;
+  const PathSettings settings = path_settings(world, options);
+  Worker worker(world, camera, settings);
+  worker.thread.skips_empty = options.skip_empty;
   Replay out;
   const CameraSample camera_sample{x, y, sample};
   PathOutputs outputs{std::span(&out.radiance, 1)};
   outputs.trace = &out.trace;
-  const bool whole = trace_paths(world, camera, path_settings(world, options), std::span(&camera_sample, 1),
-                                 worker, outputs);
+  const bool whole = worker.tracer.trace(std::span(&camera_sample, 1), outputs, worker.thread);
   CHECK(whole);
   return out;
 }

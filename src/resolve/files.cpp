@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "resolve/run.h"
+#include "resolve/resolve_context.h"
 
 namespace tyndall::resolve {
 
@@ -31,6 +31,10 @@ fs::path canonical_path(const fs::path& path) {
   if (failed) return path.lexically_normal();
   const fs::path result = fs::weakly_canonical(absolute, failed);
   return failed ? path.lexically_normal() : result;
+}
+
+void note_asset(Run& run, const Asset& asset, std::uint64_t bytes) {
+  if (run.options.assets != nullptr && !run.structure.later()) run.options.assets->emplace(asset, bytes);
 }
 
 std::optional<fs::path> find_file(Run& run, std::string_view noun, const std::string& name, Span span) {
@@ -76,6 +80,35 @@ std::optional<fs::path> find_file(Run& run, std::string_view noun, const std::st
         span, fmt::format("no {} '{}'", noun, name),
         fmt::format("looked beside the file that names it and in: {}", fmt::join(directories, ", ")));
   return std::nullopt;
+}
+
+std::optional<NamedFile> named_file(Run& run, const syntax::SyntaxTree& tree, syntax::ExprId file,
+                                    const std::shared_ptr<const eval::Scope>& scope) {
+  const Span span = tree[file].span;
+  const auto below = std::make_shared<eval::Scope>();
+  below->parent = scope;
+  const eval::Value name =
+      run.evaluator.evaluate_as(eval::Type::string, tree, file, below, "the file's name");
+  if (name.is_error()) return std::nullopt;
+  const auto path = find_file(run, "file", name.as_string(), span);
+  if (!path) return std::nullopt;
+  return NamedFile{*path, name.as_string(), span};
+}
+
+std::optional<fs::path> find_beside(const Options& options, const fs::path& file, const std::string& name,
+                                    std::string& why) {
+  const fs::path folder = folder_of(file.string()), path = folder / name;
+  if (!options.allow_outside && !is_below(canonical_path(path), {canonical_path(folder)})) {
+    why = fmt::format("names '{}', outside of the file's folder; --allow-outside opens all there are", name);
+    return std::nullopt;
+  }
+  std::error_code failed;
+  if (!fs::exists(path, failed)) {
+    why = fmt::format("names '{}', and there is no such file", name);
+    return std::nullopt;
+  }
+  if (options.files_read != nullptr) options.files_read->insert(path.string());
+  return path;
 }
 
 }  // namespace tyndall::resolve

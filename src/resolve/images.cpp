@@ -2,28 +2,24 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "image/image.h"
-#include "resolve/run.h"
+#include "image/plane_maker.h"
+#include "resolve/kept_parts.h"
 
 namespace tyndall::resolve {
 
-namespace {
-
-PlanePointer plane_of(const image::PlanesResult& read, image::ReadPlane& plane, const std::string& file) {
-  // From rows from the top to rows from the bottom.
-  const auto width = static_cast<std::ptrdiff_t>(read.width);
-  for (std::ptrdiff_t low = 0, high = read.height - 1; low < high; ++low, --high)
-    std::swap_ranges(plane.texels.begin() + low * width, plane.texels.begin() + (low + 1) * width,
-                     plane.texels.begin() + high * width);
-  return make_plane(fmt::format("{} {}", file, read.channels[plane.channel]), read.width, read.height,
-                    std::move(plane.texels));
+Images::Images(Run& run) : run_(run), memory_(run.options.texture_memory) {
+  if (const KeptParts* kept = kept_parts(run); kept && kept->tiles) memory_.tiles = kept->tiles;
 }
 
-}  // namespace
+void Images::keep_in(KeptParts& parts) {
+  std::erase_if(known_, [](const auto& known) { return known.second.planes.empty(); });  // not to be read
+  parts.images = known_;
+  parts.tiles = memory_.tiles;
+}
 
 std::string Images::find(const std::string& name, Span span) {
   const auto path = find_file(run_, "picture", name, span);
@@ -39,35 +35,67 @@ std::vector<PlanePointer> Images::planes(const eval::Image& image) {
     const PlanePointer black = make_plane("", 1, 1, {0});
     return image.channel.empty() ? std::vector{black, black, black} : std::vector{black};
   }
-  const auto [known, is_new] = known_.try_emplace({image.path, image.channel});
-  if (is_new) known->second = decoded(image);
-  return known->second;
+  const auto [known, is_new] = known_.try_emplace({image.path, image.channel, image.encoding});
+  if (!is_new) return known->second.planes;
+  const bool is_kept = take_kept(known->first, known->second);
+  if (!is_kept) known->second = decoded(image);
+  if (run_.options.kept) run_.options.kept->files.count(is_kept);
+  if (!known->second.planes.empty())
+    note_asset(run_, {image.path, known->second.kind, image.channel}, known->second.bytes);
+  return known->second.planes;
 }
 
-std::vector<PlanePointer> Images::decoded(const eval::Image& image) {
-  const auto fail = [&](std::string message, std::string help = {}) -> std::vector<PlanePointer> {
+// What the frame before decoded, as long as this one has the memory for it.
+bool Images::take_kept(const Key& key, Decoded& into) {
+  const KeptParts* kept = kept_parts(run_);
+  if (!kept) return false;
+  const auto before = kept->images.find(key);
+  if (before == kept->images.end()) return false;
+  if (!before->second.is_paged) {
+    if (before->second.bytes > memory_.left) return false;
+    memory_.left -= before->second.bytes;
+  }
+  into = before->second;
+  return true;
+}
+
+void Images::tell_of(const image::PlaneMaker& maker, const eval::Image& image, const std::string& file) {
+  if (maker.not_finite() > 0)
+    run_.diagnostics.warning(
+        image.span, fmt::format("'{}' holds {} values that are not finite", file, maker.not_finite()),
+        "they count as 0");
+  if (maker.negative() > 0)
+    run_.diagnostics.warning(image.span,
+                             fmt::format("'{}' holds {} value{} below 0", file, maker.negative(),
+                                         maker.negative() == 1 ? "" : "s"),
+                             "no colour is negative: they count as 0; a channel that is named, as in "
+                             "image(file, \"R\"), is read as it is");
+}
+
+Images::Decoded Images::decoded(const eval::Image& image) {
+  const auto fail = [&](std::string message, std::string help = {}) -> Decoded {
     run_.diagnostics.error(image.span, std::move(message), std::move(help));
     return {};
   };
-  image::PlanesResult read = image::read_planes(image.path, image.channel, bytes_left_);
-  if (!read.error.empty()) return fail(read.error);
+  using Negative = image::PlaneMaker::Negative;
   const std::string file = std::filesystem::path(image.path).filename().string();
-  if (read.planes.empty())
+  // Colours are light or shares of it. A channel that is named may hold numbers of any kind.
+  image::PlaneMaker maker(file, image.channel.empty() ? Negative::cleared : Negative::kept, memory_);
+  std::optional<image::Encoding> encoding;
+  if (image.encoding != eval::Image::Encoding::of_file)
+    encoding =
+        image.encoding == eval::Image::Encoding::srgb ? image::Encoding::srgb : image::Encoding::linear;
+  std::string error = image::read_rows(image.path, image.channel, encoding, maker);
+  if (!error.empty()) return fail(error);
+  std::vector<PlanePointer> planes = maker.finish(error);
+  if (!error.empty()) return fail(fmt::format("cannot read '{}': {}", image.path, error));
+  if (planes.empty())
     return fail(fmt::format("'{}' has no channel '{}'", file, image.channel),
-                fmt::format("it has: {}", fmt::join(read.channels, ", ")));
-  std::ptrdiff_t bad = 0;
-  for (const image::ReadPlane& plane : read.planes) {
-    bad += std::count_if(plane.texels.begin(), plane.texels.end(),
-                         [](float value) { return !std::isfinite(value); });
-    bytes_left_ -= plane.texels.size() * sizeof(float);
-  }
-  if (bad > 0)
-    run_.diagnostics.warning(image.span, fmt::format("'{}' holds {} values that are not finite", file, bad),
-                             "they count as 0");
-  std::vector<PlanePointer> planes;
-  for (image::ReadPlane& plane : read.planes) planes.push_back(plane_of(read, plane, file));
+                fmt::format("it has: {}", fmt::join(maker.header().channels, ", ")));
+  tell_of(maker, image, file);
   if (image.channel.empty()) planes.resize(3, planes[0]);
-  return planes;
+  return {std::move(planes), maker.is_paged() ? "image in a temporary file" : "image", maker.bytes(),
+          maker.is_paged()};
 }
 
 }  // namespace tyndall::resolve

@@ -15,7 +15,9 @@ inline constexpr int max_block_depth = 500;  // blocks within blocks within call
 inline constexpr long max_repetitions = 10'000'000;
 inline constexpr std::uintmax_t max_file_bytes = std::uintmax_t{256} << 20;
 
-inline constexpr double max_placed_lights = 1'000'000;  // each stands in the scene by itself
+// Each stands in the scene by itself, wherever it comes from.
+inline constexpr int max_lights = 1'000'000, max_volumes = 1'000'000;
+inline constexpr std::size_t max_objects = 1'000'000;
 inline constexpr std::size_t max_curve_points = 10'000'000;
 
 struct Limit {

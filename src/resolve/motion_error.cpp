@@ -11,13 +11,14 @@ namespace tyndall::resolve {
 
 namespace {
 
-constexpr double share_of_way = 1.0 / 4000, share_of_size = 1.0 / 50;
+constexpr double share_of_way = 1.0 / 4000, share_of_size = 1.0 / 50, share_of_pixel = 0.1;
+constexpr double least_share_of_way = share_of_way / 10;  // what is around the camera is near beyond measure
 constexpr double rounding = 1e-11;  // of the largest of the numbers that are computed with
 
 void widen(Intervald& range, double x) { range = {std::min(range.lo, x), std::max(range.hi, x)}; }
 
 Ball around(const std::vector<Vec3d>& points, double more = 0) {
-  if (points.empty()) return {};
+  if (points.empty()) return {{}, 1};
   std::array<Intervald, 3> box;
   box.fill({infinity, -infinity});
   for (const Vec3d& p : points)
@@ -64,27 +65,71 @@ std::vector<Marks> all_marks(const scene::Volume& v, const Balls& balls) {
   return {own, medium_from_world ? placed(own, *medium_from_world * v.world_from_shape) : own};
 }
 std::vector<Marks> all_marks(const scene::LightInstance& l, const Balls& balls) {
-  if (!l.shape) return {};
-  return {marks_of(balls.of(*l.shape))};
+  // A picture all around is seen at any distance.
+  if (const auto* sky = std::get_if<scene::EnvironmentLight>(&l.light))
+    return sky->radiance.picture[0] ? std::vector<Marks>{marks_of({{}, 1})} : std::vector<Marks>{};
+  const auto* area = std::get_if<scene::AreaLight>(&l.light);
+  if (!area || !area->world_from_shape) return {};
+  return {marks_of(balls.of(area->shape))};
 }
 std::vector<Marks> all_marks(const scene::Camera&, const Balls&) { return {}; }
 
-double own_error(const auto&, const auto&) { return 0; }
-double own_error(const scene::Camera& truth, const scene::Camera& guess) {
+// Where a thing's surface is in the world, if it has one.
+template <class T>
+std::optional<Marks> surface_marks(const T& thing, const Balls& balls) {
+  const std::vector<Marks> own = all_marks(thing, balls);
+  return own.empty() ? std::nullopt : std::optional(placed(own[0], scene::transforms_of(thing)[0]));
+}
+template <>
+std::optional<Marks> surface_marks(const scene::LightInstance& l, const Balls& balls) {
+  const auto* area = std::get_if<scene::AreaLight>(&l.light);
+  if (!area) return std::nullopt;
+  return placed(marks_of(balls.of(area->shape)), area->world_from_shape.value_or(Transform{}));
+}
+
+// What holds a tenth of a pixel within these sides, of a way of so many metres; none: at any distance.
+double enough_of_way(const Eye& eye, const std::array<Intervald, 3>& box, double way) {
+  if (box[0].lo > box[0].hi) return share_of_way * way;
+  return std::clamp(share_of_pixel * eye.pixel(eye.distance(box)), least_share_of_way * way,
+                    share_of_way * way);
+}
+
+double own_error(const auto&, const auto&, const Eye&) { return 0; }
+double own_error(const scene::Camera& truth, const scene::Camera& guess, const Eye& eye) {
   const auto ends = [](const scene::Camera& camera) {
     return std::visit([](const auto& c) { return std::pair(c.from, c.to); }, camera);
   };
   const auto [from, to] = ends(truth);
   const auto [guessed_from, guessed_to] = ends(guess);
   const double off = std::max(length(from - guessed_from), length(to - guessed_to));
-  const double enough = share_of_way * length(to - from) + rounding * std::max(largest(from), largest(to));
+  const double distance = length(to - from);
+  const double enough = std::min(share_of_way * distance, share_of_pixel * eye.pixel(distance)) +
+                        rounding * std::max(largest(from), largest(to));
   return off > 0 ? off / enough : 0;
 }
 
 }  // namespace
 
-Balls::Balls(const scene::Scene& scene) {
-  for (const scene::TriangleMesh& mesh : scene.meshes) meshes_.push_back(around(mesh.points));
+Eye::Eye(const scene::Scene& scene) {
+  const double height = scene.settings.resolution.height;
+  std::visit([&](const auto& camera) { at_ = camera.from; }, scene.camera);
+  std::visit(Overloaded{[&](const scene::PerspectiveCamera& c) {
+                          angle_ = 2 * std::tan(c.fov.radians / 2) / height;
+                        },
+                        [&](const scene::OrthographicCamera& c) { width_ = c.height / height; },
+                        [&](const scene::SphericalCamera&) { angle_ = pi / height; }},
+             scene.camera);
+}
+
+double Eye::distance(const std::array<Intervald, 3>& box) const {
+  Vec3d off;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    off[axis] = std::max({box[axis].lo - at_[axis], at_[axis] - box[axis].hi, 0.0});
+  return length(off);
+}
+
+Balls::Balls(const scene::Scene& scene) : eye_(scene) {
+  for (const scene::SharedMesh& mesh : scene.meshes) meshes_.push_back(around(mesh->points));
   for (const scene::StrandSet& set : scene.strand_sets)
     strand_sets_.push_back(
         around(set.points, set.radii.empty() ? 0 : *std::max_element(set.radii.begin(), set.radii.end())));
@@ -98,24 +143,7 @@ Balls::Balls(const scene::Scene& scene) {
 }
 
 Ball Balls::of(const scene::Shape& shape) const {
-  return std::visit(Overloaded{[](const scene::Sphere& s) {
-                                 return Ball{s.center, s.radius};
-                               },
-                               [](const scene::Box& b) {
-                                 return Ball{(b.min + b.max) * 0.5, length(b.max - b.min) / 2};
-                               },
-                               [](const scene::Plane& p) {
-                                 return Ball{p.point, 1};
-                               },
-                               [](const scene::Quad& q) {
-                                 return Ball{q.center, length(q.u) + length(q.v)};
-                               },
-                               [](const scene::Disk& d) {
-                                 return Ball{d.center, d.radius};
-                               },
-                               [](const scene::Cylinder& c) {
-                                 return Ball{(c.from + c.to) * 0.5, length(c.to - c.from) / 2 + c.radius};
-                               },
+  return std::visit(Overloaded{[](const shapes::Analytic auto& s) { return s.ball(); },
                                [&](const scene::Mesh& m) { return meshes_[m.mesh.index]; },
                                [&](const scene::Curves& c) { return strand_sets_[c.strands.index]; }},
                     shape);
@@ -132,7 +160,17 @@ void Range<T>::add(const T& thing, const Balls& balls) {
   const std::vector<Transform> transforms = scene::transforms_of(thing);
   const std::vector<Marks> own = marks(thing, balls);
   CHECK_EQ(own.size(), transforms.size());
-  if (numbers_.empty()) numbers_.assign(numbers.size(), {infinity, -infinity});
+  if (numbers_.empty()) {
+    numbers_.assign(numbers.size(), {infinity, -infinity});
+    seen_.fill({infinity, -infinity});
+  }
+  // The balls around a thing reach as far to one side as to the other.
+  if (const auto surface = surface_marks(thing, balls))
+    for (std::size_t i = 1; i < surface->size(); ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        widen(seen_[axis], (*surface)[i][axis]);
+        widen(seen_[axis], 2 * (*surface)[0][axis] - (*surface)[i][axis]);
+      }
   if (boxes_.empty()) {
     std::array<Intervald, 3> nowhere;
     nowhere.fill({infinity, -infinity});
@@ -146,7 +184,7 @@ void Range<T>::add(const T& thing, const Balls& balls) {
 
 template <class T>
 double Range<T>::deviation(const T& truth, const T& guess, const Balls& balls) const {
-  double worst = own_error(truth, guess);
+  double worst = own_error(truth, guess, balls.eye());
   const auto judge = [&](double off, double enough) {
     if (off > 0) worst = std::max(worst, off / enough);  // none is enough: infinitely far off
   };
@@ -154,9 +192,13 @@ double Range<T>::deviation(const T& truth, const T& guess, const Balls& balls) c
                                          guessed = scene::plain_numbers(guess);
   double size = 0;
   for (const Intervald& n : numbers_) size = std::max({size, std::abs(n.lo), std::abs(n.hi)});
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    judge(std::abs(numbers[i].value - guessed[i].value),
-          share_of_way * (numbers_[i].hi - numbers_[i].lo) + numbers[i].rounding + rounding * size);
+  const bool is_seen = seen_[0].lo <= seen_[0].hi;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double way = numbers_[i].hi - numbers_[i].lo;
+    const double enough =
+        numbers[i].in_metres && is_seen ? enough_of_way(balls.eye(), seen_, way) : share_of_way * way;
+    judge(std::abs(numbers[i].value - guessed[i].value), enough + numbers[i].rounding + rounding * size);
+  }
 
   const std::vector<Transform> to = scene::transforms_of(truth), guessed_to = scene::transforms_of(guess);
   const std::vector<Marks> own = marks(truth, balls), guessed_own = marks(guess, balls);
@@ -170,7 +212,7 @@ double Range<T>::deviation(const T& truth, const T& guess, const Balls& balls) c
       coordinate = std::max({coordinate, std::abs(side.lo), std::abs(side.hi)});
     }
     for (const Vec3d& p : now) radius = std::max(radius, length(p - now[0]));
-    double enough = share_of_way * way;
+    double enough = enough_of_way(balls.eye(), seen_, way);
     if (radius > 0) enough = std::min(enough, share_of_size * 2 * radius);
     for (std::size_t k = 0; k < now.size(); ++k)
       judge(length(now[k] - guessed_now[k]), enough + rounding * (coordinate + largest(to[i].t)));

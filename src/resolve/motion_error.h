@@ -10,19 +10,32 @@
 namespace tyndall::resolve {
 
 // Around a thing, in its own space. What reaches to infinity has one of 1 m.
-struct Ball {
-  Vec3d center;
-  double radius = 1;
+using shapes::Ball;
+
+// Where a scene is seen from when the shutter opens, and how large a pixel of its picture is there.
+class Eye {
+ public:
+  explicit Eye(const scene::Scene& scene);
+  // The way to the far end of a pixel from its near end at this distance [m].
+  double pixel(double distance) const { return width_ + angle_ * distance; }
+  // The least distance to a point of a box, whose sides these are.
+  double distance(const std::array<Intervald, 3>& box) const;
+
+ private:
+  Vec3d at_;
+  double width_ = 0, angle_ = 0;  // of parallel rays; at a distance of 1 m
 };
 
-// The balls of a scene's shapes and prototypes.
+// The balls of a scene's shapes and prototypes, and what they are seen from.
 class Balls {
  public:
   explicit Balls(const scene::Scene& scene);
+  const Eye& eye() const { return eye_; }
   Ball of(const scene::Shape& shape) const;
   const Ball& of(scene::PrototypeId prototype) const { return prototypes_[prototype.index]; }
 
  private:
+  Eye eye_;
   std::vector<Ball> meshes_, strand_sets_, prototypes_;
 };
 
@@ -39,14 +52,17 @@ class Range {
  public:
   void add(const T& thing, const Balls& balls);
   // How far `guess` is off from `truth`, at most 1 when it is near enough. Near enough are for each mark a
-  // 4000th of the box that it and its like go through, and a 50th of the thing's size; for every other number
-  // a 4000th of what it ranges over; for where a camera stands and looks a 4000th of the distance between the
-  // two. Always what rounding makes of either.
+  // 4000th of the box that it and its like go through, a 50th of the thing's size, and a tenth of a pixel
+  // where it is nearest to the camera or, around the camera, a 40000th of the box; for numbers in metres
+  // likewise of what they range over; for every other number a 4000th of that; for where a camera stands and
+  // looks a 4000th of the distance between the two, and a tenth of a pixel there. Always what rounding makes
+  // of either.
   double deviation(const T& truth, const T& guess, const Balls& balls) const;
 
  private:
   std::vector<Intervald> numbers_;               // both ends included
   std::vector<std::array<Intervald, 3>> boxes_;  // of each transform's marks, in the world
+  std::array<Intervald, 3> seen_;                // around all of the thing that is seen
 };
 
 }  // namespace tyndall::resolve

@@ -108,7 +108,8 @@ double Track<T>::error_between(double a, double b, bool straight, const Balls& b
   guess.times = {0, 1};
   double most = 0;
   for (const double moment : tests_between(a, b))
-    most = std::max(most, range_.deviation(known_.at(moment), scene::at(guess, (moment - a) / (b - a)), balls));
+    most =
+        std::max(most, range_.deviation(known_.at(moment), scene::at(guess, (moment - a) / (b - a)), balls));
   return most;
 }
 

@@ -6,11 +6,12 @@
 #include <algorithm>
 
 #include "base/overloaded.h"
-#include "resolve/animation.h"
-#include "resolve/checks.h"
-#include "resolve/motion.h"
-#include "resolve/never_run.h"
-#include "resolve/run.h"
+#include "resolve/checks/scene_checks.h"
+#include "resolve/checks/unreached_code.h"
+#include "resolve/kept_parts.h"
+#include "resolve/motion_keys.h"
+#include "resolve/resolve_context.h"
+#include "resolve/statements/animation.h"
 #include "syntax/parser.h"
 
 namespace tyndall::resolve {
@@ -19,6 +20,11 @@ namespace {
 
 // Reads the --set options' expressions, each as a source of its own.
 void read_overrides(Run& run) {
+  if (KeptParts* kept = kept_parts(run); kept && !kept->overrides.empty()) {
+    run.overrides = kept->overrides;
+    for (Override& override : run.overrides) override.used = false;
+    return;
+  }
   for (const auto& [name, text] : run.options.overrides) {
     const SourceId source = run.sources.add(fmt::format("<--set {}>", name), text);
     const Span span{source, 0, static_cast<std::uint32_t>(text.size())};
@@ -38,10 +44,13 @@ void read_overrides(Run& run) {
 void settle_time(Run& run) {
   run.foreseen = foresee_animation(run);
   run.scene.frame = run.options.frame.value_or(run.foreseen ? run.foreseen->first_frame : 0);
-  run.scene.time = run.foreseen ? run.scene.frame / run.foreseen->fps : 0;
   run.context.frame = run.scene.frame;
+  run.context.frame_time = run.foreseen ? run.scene.frame / run.foreseen->fps : 0;
+  run.scene.time = run.foreseen ? scene::opening_time(*run.foreseen, run.scene.frame) : 0;
   run.context.time = run.scene.time;
-  run.context.shutter_open = run.foreseen && run.foreseen->shutter.radians > 0;
+  run.context.shutter_open = run.foreseen && run.foreseen->shutter.open();
+  run.context.opened = run.scene.time;
+  run.context.shutter_seconds = run.foreseen ? scene::shutter_seconds(*run.foreseen) : 0;
   run.structure.keep(run.context.shutter_open);
 }
 
@@ -53,19 +62,25 @@ void run_main_file(Run& run) {
   run.includes.open.pop_back();
 }
 
-std::optional<scene::Scene> scene_at(Run& first, double fraction) {
+std::optional<SceneThen> scene_at(Run& first, double fraction) {
   Diagnostics diagnostics;
   Run run(*first.main, first.sources, first.symbols, first.options, diagnostics, &first.structure);
-  // Text and pictures are read once.
+  // Text, pictures and grids are read once.
   run.overrides = first.overrides;
   run.includes.trees = first.includes.trees;
   for (const auto& [key, tree] : run.includes.trees)
     if (tree) note_unread(run, *tree);
   run.images.share(first.images);
+  run.imported.share(first.imported);
+  run.grids.share(first.grids);
   run.foreseen = first.foreseen;
   run.scene.frame = first.scene.frame;
+  run.scene.time = first.scene.time;
   run.context.frame = first.scene.frame;
-  run.context.time = first.scene.time + fraction * scene::shutter_seconds(*first.foreseen);
+  run.context.opened = first.context.opened;
+  run.context.frame_time = first.context.frame_time;
+  run.context.shutter_seconds = first.context.shutter_seconds;
+  run.context.time = first.scene.time + fraction * first.context.shutter_seconds;
   run_main_file(run);
   for (const Diagnostic& d : diagnostics.all())
     if (d.severity == Severity::error) {
@@ -76,7 +91,7 @@ std::optional<scene::Scene> scene_at(Run& first, double fraction) {
       first.diagnostics.error(d.span, d.message, d.help, std::move(notes));
       return std::nullopt;
     }
-  return std::move(run.scene);
+  return SceneThen{std::move(run.scene), std::move(run.written)};
 }
 
 }  // namespace
@@ -89,14 +104,16 @@ Run::Run(const syntax::SyntaxTree& tree, Sources& sources_, syntax::Symbols& sym
       diagnostics(diagnostics_),
       main(&tree),
       images(*this),
+      grids(*this),
       context{.sources = &sources_,
               .symbols = &symbols_,
               .diagnostics = &diagnostics_,
               .main_source = tree.source,
-              .images = &images},
+              .images = &images,
+              .grids = &grids},
       evaluator(context),
       schemas(symbols_),
-      statements(symbols_),
+      statements(all_statements(), symbols_),
       structure(earlier),
       blocks_run(tree.blocks.size()) {
   note_unread(*this, tree);
@@ -135,6 +152,7 @@ void note_unread(Run& run, const syntax::SyntaxTree& tree) {
 scene::Scene resolve(const syntax::SyntaxTree& tree, Sources& sources, syntax::Symbols& symbols,
                      const Options& options, Diagnostics& diagnostics) {
   Run run(tree, sources, symbols, options, diagnostics);
+  if (options.kept) options.kept->files = {};
   read_overrides(run);
   settle_time(run);
   run_main_file(run);
@@ -148,7 +166,16 @@ scene::Scene resolve(const syntax::SyntaxTree& tree, Sources& sources, syntax::S
     if (run.context.shutter_open && run.context.time_reads > 0 && !run.diagnostics.has_errors())
       find_motion(run, scene_at);
   }
+  keep_parts(run);
   return std::move(run.scene);
+}
+
+std::optional<scene::Animation> animation_of(const syntax::SyntaxTree& tree, Sources& sources,
+                                             syntax::Symbols& symbols, const Options& options) {
+  Diagnostics told_when_it_is_read;
+  Run run(tree, sources, symbols, options, told_when_it_is_read);
+  read_overrides(run);
+  return foresee_animation(run);
 }
 
 }  // namespace tyndall::resolve

@@ -11,7 +11,7 @@
 #include "base/source.h"
 #include "base/vec.h"
 #include "optics/phase.h"
-#include "vm/program.h"
+#include "vm/program/program.h"
 
 namespace tyndall::scene {
 
@@ -29,7 +29,7 @@ struct PhaseLobe {
     std::optional<std::uint8_t> output{};  // set: read from the segment instead of `value`
   };
   optics::PhaseKind kind{};
-  std::array<Number, 2> parameters{};
+  std::array<Number, optics::most_phase_parameters> parameters{};
   Number weight{1};
 };
 
@@ -49,6 +49,9 @@ struct GivenNumber {
   std::uint8_t output = 0;                          // of `full`
   std::optional<std::uint8_t> extinction_output{};  // of `extinction`, where that is made of it
   bool scales = false;                              // a coefficient, or one's factor
+  // Where several statements set it: each, and the outputs that give the number of the one that did.
+  std::vector<Span> branches{};
+  std::uint8_t branch_output = 0, extinction_branch_output = 0;
 };
 
 // The places at which a body asks for fields of a lattice (noise and its like), by a program of their own.

@@ -47,4 +47,10 @@ std::size_t open_edges(const TriangleMesh& mesh) {
   return open;
 }
 
+std::size_t open_edges(const SharedMesh& mesh) {
+  std::optional<std::size_t>& known = mesh.findings().open_edges;
+  if (!known) known = open_edges(*mesh);
+  return *known;
+}
+
 }  // namespace tyndall::scene

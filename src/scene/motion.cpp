@@ -38,11 +38,15 @@ class Numbers {
   void of(std::optional<T>& v) {
     if (v) of(*v);
   }
-  // What a picture all around is drawn by was made for it as it is when the shutter opens.
-  void of(optics::EnvironmentLight& light) {
-    if (!light.radiance.picture[0]) of(light.radiance.color);
+  // One colour looks the same however it is turned.
+  void of(EnvironmentLight& light) {
+    of(light.radiance.color);
+    if (!light.radiance.picture[0]) return;
+    of(light.rotation);
+    of(light.world_from_sky);
   }
-  void of(optics::MeshLight& light) {
+  void of(AreaLight& light) {
+    of(light.shape);
     of(light.power);
     of(light.radiance);
     of(light.world_from_shape);
@@ -65,12 +69,18 @@ class Numbers {
   void of(Mesh&) {}
   void of(Curves&) {}
   void of(bool&) {}
+  void of(image::Exposure&) {}
+  void of(image::Tonemap&) {}
   template <class T>
   void of(T& thing) requires requires {
     T::keyword;
   }
   {
-    T::fields([&](auto member, const FieldInfo&) { of(thing.*member); });
+    T::fields([&](auto member, const FieldInfo& info) {
+      if constexpr (requires { visit_.in_metres; })
+        visit_.in_metres = info.quantity == Quantity::position || info.quantity == Quantity::length;
+      of(thing.*member);
+    });
   }
 
  private:
@@ -84,7 +94,8 @@ void visit_numbers(T& thing, F&& visit) {
 
 struct PlainNumbers {
   std::vector<MovingNumber> list{};
-  void operator()(double& x) { list.push_back({x, 0}); }
+  bool in_metres = false;
+  void operator()(double& x) { list.push_back({x, 0, in_metres}); }
   void operator()(float& x) { list.push_back({x, std::abs(double{x}) * 0x1p-22}); }
   void transform(const Transform&) {}
 };
@@ -119,13 +130,22 @@ T between(const T& a, const T& b, double part) {
 // Gives a transform whose numbers went straight from key k to the next the linear part that it has on its
 // turn, about the pivot that went straight.
 void turn(Transform& straight, const Turning& turning, std::size_t k, double part) {
-  const auto &a = turning.poses[k], &b = turning.poses[k + 1];
-  if (!a || !b) return;
-  const std::optional<Transform> turned = mix(*a, *b, part);
-  if (!turned) return;
+  if (!turning.ways[k]) return;
+  const Transform turned = turning.ways[k]->at(part);
   const Vec3d pivot = straight.point(turning.pivot);
-  straight = *turned;
-  straight.t = pivot - turned->vector(turning.pivot);
+  straight = turned;
+  straight.t = pivot - turned.vector(turning.pivot);
+}
+
+// Where a moment is: after this key, so much of the way to the next.
+struct Way {
+  std::size_t key;
+  double part;
+};
+Way way_at(const std::vector<double>& times, double fraction) {
+  const auto after = std::upper_bound(times.begin() + 1, times.end() - 1, fraction);
+  const auto k = static_cast<std::size_t>(after - times.begin()) - 1;
+  return {k, (fraction - times[k]) / (times[k + 1] - times[k])};
 }
 
 double size_of(const Transform& linear) {
@@ -139,8 +159,8 @@ double bend_of(const Turning& turning, std::size_t k, int pieces) {
   if (!a || !b) return 0;
   const double angle = angle_between(a->rotation, b->rotation) / pieces;
   const Transform change{
-      b->stretch.x - a->stretch.x, b->stretch.y - a->stretch.y, b->stretch.z - a->stretch.z, {}};
-  const double size = std::max(size_of(a->stretch), size_of(b->stretch));
+      b->interval.x - a->interval.x, b->interval.y - a->interval.y, b->interval.z - a->interval.z, {}};
+  const double size = std::max(size_of(a->interval), size_of(b->interval));
   return (angle * angle * size + 2 * angle * size_of(change) / pieces) / 8;
 }
 
@@ -192,20 +212,49 @@ void set_turnings(Moving<T>& moving, const std::vector<Vec3d>& pivots) {
       any |= now[i].x != first[i].x || now[i].y != first[i].y || now[i].z != first[i].z;
     }
   }
+  for (Turning& t : turnings)
+    for (std::size_t k = 0; k + 1 < t.poses.size(); ++k)
+      t.ways.push_back(t.poses[k] && t.poses[k + 1] ? PoseMix::between(*t.poses[k], *t.poses[k + 1])
+                                                    : std::nullopt);
   if (any) moving.turnings = std::move(turnings);
 }
 
 template <class T>
 T at(const Moving<T>& moving, double fraction) {
-  const std::vector<double>& times = moving.times;
-  const auto after = std::upper_bound(times.begin() + 1, times.end() - 1, fraction);
-  const auto k = static_cast<std::size_t>(after - times.begin()) - 1;
-  const double part = (fraction - times[k]) / (times[k + 1] - times[k]);
-  T now = between(moving.keys[k], moving.keys[k + 1], part);
+  const auto [key, part] = way_at(moving.times, fraction);
+  T now = between(moving.keys[key], moving.keys[key + 1], part);
   if (moving.turnings.empty() || part <= 0 || part >= 1) return now;
   auto turning = moving.turnings.begin();
-  visit_transforms(now, [&](Transform& t) { turn(t, *turning++, k, part); });
+  visit_transforms(now, [&, k = key, along = part](Transform& t) { turn(t, *turning++, k, along); });
   return now;
+}
+
+template <class T>
+MovingTransform::MovingTransform(const Moving<T>& moving, std::size_t which) : times_(moving.times) {
+  for (const T& key : moving.keys) keys_.push_back(transforms_of(key)[which]);
+  if (!moving.turnings.empty()) turning_ = moving.turnings[which];
+}
+
+Transform MovingTransform::at(double fraction) const {
+  const auto [key, part] = way_at(times_, fraction);
+  const Transform &a = keys_[key], &b = keys_[key + 1];
+  if (part <= 0) return a;
+  if (part >= 1) return b;
+  Transform now{a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z),
+                a.t + part * (b.t - a.t)};
+  if (turning_) turn(now, *turning_, key, part);
+  return now;
+}
+
+template <class T>
+bool moves_within(const Moving<T>& moving) {
+  const auto numbers = [](const T& key) {
+    std::vector<double> list;
+    for (const MovingNumber& n : plain_numbers(key)) list.push_back(n.value);
+    return list;
+  };
+  return std::any_of(moving.keys.begin(), moving.keys.end(),
+                     [&](const T& key) { return numbers(key) != numbers(moving.keys.front()); });
 }
 
 template <class T>
@@ -233,13 +282,15 @@ double bend(const Moving<T>& moving, std::size_t transform) {
 }
 
 // For each kind of thing that moves.
-#define TYNDALL_MOVES(T)                                                  \
-  template std::vector<double> moving_numbers(const T&);                  \
-  template std::vector<MovingNumber> plain_numbers(const T&);             \
-  template std::vector<Transform> transforms_of(const T&);                \
-  template void set_turnings(Moving<T>&, const std::vector<Vec3d>&);      \
-  template T at(const Moving<T>&, double);                                \
-  template std::vector<double> moments(const Moving<T>&, double, double); \
+#define TYNDALL_MOVES(T)                                                    \
+  template std::vector<double> moving_numbers(const T&);                    \
+  template std::vector<MovingNumber> plain_numbers(const T&);               \
+  template std::vector<Transform> transforms_of(const T&);                  \
+  template void set_turnings(Moving<T>&, const std::vector<Vec3d>&);        \
+  template T at(const Moving<T>&, double);                                  \
+  template MovingTransform::MovingTransform(const Moving<T>&, std::size_t); \
+  template bool moves_within(const Moving<T>&);                             \
+  template std::vector<double> moments(const Moving<T>&, double, double);   \
   template double bend(const Moving<T>&, std::size_t);
 TYNDALL_MOVES(ShapeInstance)
 TYNDALL_MOVES(Instance)
@@ -249,7 +300,15 @@ TYNDALL_MOVES(Camera)
 #undef TYNDALL_MOVES
 
 double shutter_seconds(const Animation& animation) {
-  return animation.shutter.radians / (2 * pi * animation.fps);
+  const auto& [opens, closes] = animation.shutter;
+  return (closes.radians - opens.radians) / (2 * pi * animation.fps);
+}
+
+double opening_seconds(const Animation& animation) {
+  return animation.shutter.opens.radians / (2 * pi * animation.fps);
+}
+double opening_time(const Animation& animation, int frame) {
+  return frame / animation.fps + opening_seconds(animation);
 }
 
 }  // namespace tyndall::scene

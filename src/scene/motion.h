@@ -16,8 +16,9 @@ namespace tyndall::scene {
 // and one point, as seen from the thing, goes straight. So what turns evenly about a fixed axis, or about one
 // that goes straight, is exact between any two keys less than half a turn apart.
 struct Turning {
-  Vec3d pivot;                             // that point, in the space that the transform is applied to
-  std::vector<std::optional<Pose>> poses;  // at each key; nothing where it is flat
+  Vec3d pivot;                               // that point, in the space that the transform is applied to
+  std::vector<std::optional<Pose>> poses;    // at each key; nothing where it is flat
+  std::vector<std::optional<PoseMix>> ways;  // from each key to the next; nothing where numbers go straight
 };
 
 // The thing of this index, of the list that it stands in. Between two keys every number goes evenly from one
@@ -35,9 +36,11 @@ struct Moving {
 // All numbers that may move: equal lists, equal places.
 template <class T>
 std::vector<double> moving_numbers(const T& thing);
-// Those that are in no transform, with the error that they were computed with.
+// Those that are in no transform, with the error that they were computed with, and whether they are in
+// metres.
 struct MovingNumber {
   double value, rounding;
+  bool in_metres = false;
 };
 template <class T>
 std::vector<MovingNumber> plain_numbers(const T& thing);
@@ -52,6 +55,22 @@ void set_turnings(Moving<T>& moving, const std::vector<Vec3d>& pivots);
 // The thing at a moment, as a fraction of the time that the shutter is open.
 template <class T>
 T at(const Moving<T>& moving, double fraction);
+
+// One transform of a thing alone, number `which` of transforms_of(): as at() has it, without the rest.
+class MovingTransform {
+ public:
+  template <class T>
+  MovingTransform(const Moving<T>& moving, std::size_t which);
+  Transform at(double fraction) const;
+
+ private:
+  std::vector<double> times_;
+  std::vector<Transform> keys_;
+  std::optional<Turning> turning_;
+};
+// Whether anything of the thing moves but its transforms.
+template <class T>
+bool moves_within(const Moving<T>& moving);
 
 // Moments from `lo` to `hi`, both included, that are close enough for bounds: between two neighbours plain
 // numbers go straight, and a point p of a transform's space is nowhere farther from the straight line between

@@ -80,19 +80,40 @@ MediumId add_constant_medium(Scene& scene, const ConstantMedium& given) {
   return MediumId(scene.media.size() - 1);
 }
 
-std::string describe(const Step& step) {
-  if (!step.automatic()) return fmt::format("{}", step.metres);
-  return step.proven ? fmt::format("auto({}%)", step.tolerance * 100) : "auto";
+std::string describe(const Clamp& clamp) {
+  const auto text = [](double limit) {
+    return limit < infinity ? fmt::format("{}", limit) : std::string(Clamp::off);
+  };
+  if (clamp.direct == clamp.indirect) return text(clamp.direct);
+  return fmt::format("({}, {})", text(clamp.direct), text(clamp.indirect));
 }
 
-std::string describe(const MultipleScattering& scattering) {
-  if (!scattering.approximate) return std::string(MultipleScattering::full);
+std::string describe(const Step& step) {
+  if (step.fixed()) return fmt::format("{}", step.metres);
+  if (step == Step{}) return "auto";
+  return fmt::format("{}({}%)", step.proven ? "auto" : "adaptive", step.tolerance * 100);
+}
+
+namespace {
+
+// A choice with its arguments.
+template <class T>
+std::string call_of(const T& choice) {
   std::string arguments;
-  ApproximateScattering::fields([&](auto member, const FieldInfo& info) {
-    arguments +=
-        fmt::format("{}{}: {}", arguments.empty() ? "" : ", ", info.name, *scattering.approximate.*member);
+  T::fields([&](auto member, const FieldInfo& info) {
+    arguments += fmt::format("{}{}: {}", arguments.empty() ? "" : ", ", info.name, choice.*member);
   });
-  return fmt::format("{}({})", ApproximateScattering::keyword, arguments);
+  return fmt::format("{}({})", T::keyword, arguments);
+}
+
+}  // namespace
+
+std::string describe(const MultipleScattering& scattering) {
+  return scattering.approximate ? call_of(*scattering.approximate) : std::string(MultipleScattering::full);
+}
+
+std::string describe(const ShutterCurve& curve) {
+  return curve.trapezoid ? call_of(*curve.trapezoid) : std::string(ShutterCurve::box);
 }
 
 }  // namespace tyndall::scene

@@ -5,6 +5,7 @@
 
 #include <iterator>
 
+#include "base/content_hash.h"
 #include "scene/scene.h"
 
 namespace tyndall::scene {
@@ -24,6 +25,10 @@ class Printer {
   void item(std::string_view name, const std::optional<T>& value) {
     if (value) item(name, *value);
   }
+  void item(std::string_view, const Resolution& size) {
+    item("width", size.width);
+    item("height", size.height);
+  }
   // Every parameter that a struct's fields() names; optional ones only when they were given.
   template <class T>
   void fields(const T& thing) {
@@ -42,8 +47,11 @@ class Printer {
   void put(int v) { fmt::format_to(out(), "{}", v); }
   void put(std::uint64_t v) { fmt::format_to(out(), "{}", v); }
   void put(std::uint32_t v) { fmt::format_to(out(), "{}", v); }
+  void put(const image::Exposure& v) { put_text(describe(v)); }
+  void put(image::Tonemap v) { put_text(describe(v)); }
   void put(const Step& v) { put_text(describe(v)); }
   void put(const MultipleScattering& v) { put_text(describe(v)); }
+  void put(const Clamp& v) { put_text(describe(v)); }
   void put(bool v) { put_text(v ? "true" : "false"); }
   void put(const Angle& a) { fmt::format_to(out(), "{}rad", a.radians); }
   void put(std::string_view v) { put_text(v); }
@@ -67,6 +75,7 @@ class Printer {
   void put(const std::vector<double>& v) { fmt::format_to(out(), "{}", fmt::join(v, " ")); }
   void put(const Pair<double>& v) { fmt::format_to(out(), "({}, {})", v.x, v.y); }
   void put(const std::array<std::uint32_t, 3>& v) { fmt::format_to(out(), "({}, {}, {})", v[0], v[1], v[2]); }
+  void put(const std::array<float, 4>& v) { fmt::format_to(out(), "({})", fmt::join(v, ", ")); }
   void put(const RgbOutputs& o) { fmt::format_to(out(), "outputs {} {} {}", o[0], o[1], o[2]); }
   void put(const PhaseLobe::Number& n) {
     if (n.output)
@@ -81,11 +90,11 @@ class Printer {
         fmt::format_to(out(), " {} {} x {} {:016x}", plane->name, plane->width, plane->height, plane->hash);
   }
   void put(const PhaseLobe& lobe) {
-    put_text(optics::keyword(lobe.kind));
-    put_text(" (");
-    put(lobe.parameters[0]);
-    put_text(", ");
-    put(lobe.parameters[1]);
+    put_text(optics::info(lobe.kind).keyword);
+    for (std::size_t k = 0; k < lobe.parameters.size(); ++k) {
+      put_text(k == 0 ? " (" : ", ");
+      put(lobe.parameters[k]);
+    }
     put_text(") weight ");
     put(lobe.weight);
   }
@@ -106,21 +115,16 @@ void Printer::program(std::string_view name, const vm::Program& program) {
 }
 
 void print_settings(Printer& p, const Scene& scene) {
-  const RenderSettings& s = scene.settings;
   p.line(RenderSettings::keyword);
-  p.item("width", s.width);
-  p.item("height", s.height);
-  p.item("samples", s.samples);
-  p.item("step", s.step);
-  p.item("light_samples", s.light_samples);
-  p.item("bounces", s.bounces);
-  p.item("seed", s.seed);
-  p.item("multiple_scattering", s.multiple_scattering);
+  p.fields(scene.settings);
   p.line(Animation::keyword);
   p.item("fps", scene.animation.fps);
   p.item("first_frame", scene.animation.first_frame);
   p.item("last_frame", scene.animation.last_frame);
-  p.item("shutter", scene.animation.shutter);
+  if (scene.animation.shutter.opens != Angle{}) p.item("shutter_opens", scene.animation.shutter.opens);
+  p.item("shutter", scene.animation.shutter.closes);
+  if (scene.animation.shutter_curve != ShutterCurve{})
+    p.item("shutter_curve", describe(scene.animation.shutter_curve));
   p.item("frame", scene.frame);
   p.item("time", scene.time);
 }
@@ -145,11 +149,42 @@ void print_material(Printer& p, const Material& m) {
   p.item("specular", m.specular);
   p.item("transmission", m.transmission);
   p.item("coat", m.coat);
+  p.item("specular_color", m.specular_color);
+  p.item("coat_roughness", m.coat_roughness);
   p.item("ior", m.ior);
   p.item("opacity", m.opacity);
   p.item("sheen", m.sheen);
   p.item("normal", m.normal);
   p.program("program", m.program);
+}
+
+void print_mesh(Printer& p, const TriangleMesh& mesh) {
+  for (const Vec3d& point : mesh.points) p.item("point", point);
+  for (const auto& triangle : mesh.triangles) p.item("triangle", triangle);
+  for (const Vec3d& normal : mesh.normals) p.item("normal", normal);
+  for (const Pair<double>& uv : mesh.uvs) p.item("uv", uv);
+  for (const auto& tangent : mesh.tangents) p.item("tangent", tangent);
+  for (const auto& color : mesh.colors) p.item("color", color);
+  for (const Pair<double>& uv : mesh.second_uvs) p.item("uv2", uv);
+  if (mesh.thin) p.line("  thin");
+  for (const MeshPose& pose : mesh.later) {
+    p.line("  later");
+    for (const Vec3d& point : pose.points) p.item("point", point);
+    for (const Vec3d& normal : pose.normals) p.item("normal", normal);
+    for (const auto& tangent : pose.tangents) p.item("tangent", tangent);
+  }
+}
+
+const std::string& hash_of(const SharedMesh& mesh) {
+  std::string& known = mesh.findings().print_hash;
+  if (known.empty()) {
+    Printer p;
+    print_mesh(p, *mesh);
+    ContentHash hash;
+    hash.add(p.text());
+    known = hash.text();
+  }
+  return known;
 }
 
 // The keyword of a variant's alternative on a line, and its fields.
@@ -196,6 +231,28 @@ void print_things(Printer& p, const Things& things) {
   }
 }
 
+template <class Light>
+void print_light(Printer& p, const Light& light) {
+  p.line(light.keyword);
+  p.fields(light);
+  if constexpr (requires { light.world_from_sky; }) p.item("world_from_sky", light.world_from_sky);
+}
+
+// As it is written: with its shape's own parameters where it is named after that.
+void print_light(Printer& p, const AreaLight& light) {
+  p.line(light.keyword());
+  std::visit(
+      [&]<class S>(const S& shape) {
+        if constexpr (is_one_of<S, LightShapes>) p.fields(shape);
+      },
+      light.shape);
+  p.fields(light);
+  if (light.keyword() != AreaLight::mesh_keyword) return;
+  p.put_text("in ");
+  print_variant(p, light.shape);
+  p.item("world_from_shape", light.world_from_shape);
+}
+
 template <class T>
 void print_keys(Printer& p, const Moving<T>& moving) {
   for (std::size_t i = 0; i < moving.keys.size(); ++i) {
@@ -218,10 +275,12 @@ void print_moving(Printer& p, std::string_view what, const std::vector<Moving<T>
 
 }  // namespace
 
-std::string print(const Scene& scene) {
+std::string print(const Scene& scene, Printed printed) {
   Printer p;
   print_settings(p, scene);
-  print_variant(p, scene.camera);
+  Camera camera = scene.camera;
+  if (printed == Printed::as_light) std::visit([](CameraView& view) { view = {}; }, camera);
+  print_variant(p, camera);
   print_keys(p, scene.motion.camera);
   for (std::size_t i = 0; i < scene.media.size(); ++i) {
     p.count("medium", i);
@@ -236,10 +295,10 @@ std::string print(const Scene& scene) {
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     p.count("mesh", i);
     p.line("");
-    for (const Vec3d& point : scene.meshes[i].points) p.item("point", point);
-    for (const auto& triangle : scene.meshes[i].triangles) p.item("triangle", triangle);
-    for (const Vec3d& normal : scene.meshes[i].normals) p.item("normal", normal);
-    for (const Pair<double>& uv : scene.meshes[i].uvs) p.item("uv", uv);
+    if (printed == Printed::as_light)
+      p.item("hash", hash_of(scene.meshes[i]));
+    else
+      print_mesh(p, *scene.meshes[i]);
   }
   for (std::size_t i = 0; i < scene.strand_sets.size(); ++i) {
     p.count("strands", i);
@@ -247,6 +306,11 @@ std::string print(const Scene& scene) {
     for (const std::uint32_t first : scene.strand_sets[i].begin) p.item("begin", first);
     for (const Vec3d& point : scene.strand_sets[i].points) p.item("point", point);
     for (const double radius : scene.strand_sets[i].radii) p.item("radius", radius);
+    for (const StrandPose& pose : scene.strand_sets[i].later) {
+      p.line("  later");
+      for (const Vec3d& point : pose.points) p.item("point", point);
+      for (const double radius : pose.radii) p.item("radius", radius);
+    }
   }
   for (std::size_t i = 0; i < scene.prototypes.size(); ++i) {
     p.count("prototype", i);
@@ -259,14 +323,7 @@ std::string print(const Scene& scene) {
   }
   print_things(p, scene);
   for (const LightInstance& l : scene.lights) {
-    print_variant(p, l.light);
-    if (l.shape) {
-      p.put_text("in ");
-      print_variant(p, *l.shape);
-      p.item("world_from_shape", std::get<optics::MeshLight>(l.light).world_from_shape);
-    }
-    if (const auto* sky = std::get_if<optics::EnvironmentLight>(&l.light))
-      p.item("world_from_sky", sky->world_from_sky);
+    std::visit([&](const auto& light) { print_light(p, light); }, l.light);
   }
   print_moving(p, "shape", scene.motion.shapes);
   print_moving(p, "instance", scene.motion.instances);

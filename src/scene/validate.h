@@ -4,44 +4,31 @@
 // parameter's place; tests call the same functions on scenes made by hand.
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
+#include <concepts>
 
+#include "base/problem.h"
 #include "scene/scene.h"
 
 namespace tyndall::scene {
 
-// One thing wrong: the parameter it is about, what was wanted and found, and the way out (may be empty).
-struct Problem {
-  std::string_view field;
-  std::string message;
-  std::string help = {};
-};
-using Problems = std::vector<Problem>;
+using tyndall::Problem;
+using tyndall::Problems;
 
 // The problems of one thing; empty when it is sound. No memory is taken for a sound one.
 Problems validate(const RenderSettings& settings);
 Problems validate(const ApproximateScattering& approximation);
+Problems validate(const TrapezoidCurve& curve);
 Problems validate(const Animation& animation);
 Problems validate(const PerspectiveCamera& camera);
 Problems validate(const OrthographicCamera& camera);
 Problems validate(const SphericalCamera& camera);
-Problems validate(const Sphere& sphere);
-Problems validate(const Box& box);
-Problems validate(const Plane& plane);
-Problems validate(const Quad& quad);
-Problems validate(const Disk& disk);
-Problems validate(const Cylinder& cylinder);
 Problems validate(const TriangleMesh& mesh);
 Problems validate(const StrandSet& strands);
-Problems validate(const optics::PointLight& light);
-Problems validate(const optics::SpotLight& light);
-Problems validate(const optics::SphereLight& light);
-Problems validate(const optics::QuadLight& light);
-Problems validate(const optics::DiskLight& light);
-Problems validate(const optics::MeshLight& light);
-Problems validate(const optics::DistantLight& light);
-Problems validate(const optics::EnvironmentLight& light);
+// Shapes and lights have theirs.
+template <class T>
+Problems validate(const T& thing) requires requires {
+  { thing.validate() } -> std::same_as<Problems>;
+}
+{ return thing.validate(); }
 
 }  // namespace tyndall::scene

@@ -95,13 +95,21 @@ class MaterialCompiler {
 
  private:
   // The rule of the statement that each output came from; none for what stands in where nothing is set.
-  std::vector<scene::GivenNumber> given() const {
+  std::vector<scene::GivenNumber> given() {
     std::vector<scene::GivenNumber> out(list_.spans.size());
     for (std::size_t i = 0; i < std::size(rules); ++i)
       for (std::size_t k = 0; outputs_[i] && k < out.size(); ++k)
         if (list_.spans[k] == outputs_[i]->span)
           out[k] = {std::string(rules[i].name), outputs_[i]->span, rules[i].lowest,
                     i == normal ? infinity : std::min(rules[i].highest, double{scene::largest_coefficient})};
+    for (scene::GivenNumber& number : out)
+      for (const std::optional<Output>& output : outputs_) {
+        if (!output || output->span != number.span || output->branches.constant) continue;
+        if (output->branches.places.size() < 2) continue;
+        number.branches = output->branches.places;
+        number.branch_output = list_.index(output->branches.taken, output->span);
+      }
+    out.resize(list_.spans.size());
     return out;
   }
   scene::RgbOutputs color(Index which) {

@@ -21,13 +21,21 @@ namespace {
 enum Index : std::size_t { density, albedo, extinction, scattering, absorption, emission, phase };
 
 constexpr OutputRule rules[] = {
-    {"density", Type::number, false, 0, infinity, "at least 0"},
-    {"albedo", Type::vec, true, 0, 1, "in [0, 1]"},
-    {"extinction", Type::vec, true, 0, infinity, "at least 0"},
-    {"scattering", Type::vec, true, 0, infinity, "at least 0"},
-    {"absorption", Type::vec, true, 0, infinity, "at least 0"},
-    {"emission", Type::vec, true, 0, infinity, "at least 0"},
-    {"phase", Type::phase, false, 0, 0, ""},
+    {"density", Type::number, false, 0, infinity, "at least 0", "a factor of all other coefficients", "1"},
+    {"albedo", Type::vec, true, 0, 1, "in [0, 1]", "the fraction of extinction that is scattering"},
+    {"extinction", Type::vec, true, 0, infinity, "at least 0",
+     "extinction per metre where the density is 1, a number or a colour", "1 if only `albedo` is set"},
+    {"scattering", Type::vec, true, 0, infinity, "at least 0",
+     "the coefficient per metre where the density is 1, with `absorption` instead of `albedo` and "
+     "`extinction`"},
+    {"absorption", Type::vec, true, 0, infinity, "at least 0", "likewise"},
+    {"emission", Type::vec, true, 0, infinity, "at least 0",
+     "emitted power [W·m⁻³·sr⁻¹] where the density is 1", "0"},
+    {"phase", Type::phase, false, 0, 0, "",
+     "the phase function: `droplets` for fog and clouds, `rayleigh` for air, `fournier_forand` for sea "
+     "water, `hg` "
+     "for anything else, or a `mix` of two; see the end of [built-in functions](#built-in-functions)",
+     "isotropic"},
 };
 
 using Outputs = std::vector<std::optional<Output>>;
@@ -72,7 +80,8 @@ class MediumCompiler {
                               rules[i].lowest,
                               std::min(rules[i].highest, double{scene::largest_coefficient}),
                               i != albedo,
-                              i != albedo && i != emission};
+                              i != albedo && i != emission,
+                              outputs_[i]->branches};
       for (Scalar& s : outputs_[i]->value.scalars) s = limits_.limited(s, range);
     }
   }
@@ -141,26 +150,17 @@ class MediumCompiler {
     return c;
   }
 
-  static optics::PhaseKind kind(eval::PhaseLobe::Kind kind) {
-    switch (kind) {
-      case eval::PhaseLobe::Kind::isotropic:
-        return optics::PhaseKind::isotropic;
-      case eval::PhaseLobe::Kind::rayleigh:
-        return optics::PhaseKind::rayleigh;
-      case eval::PhaseLobe::Kind::hg:
-        return optics::PhaseKind::hg;
-      case eval::PhaseLobe::Kind::draine:
-        return optics::PhaseKind::draine;
-      case eval::PhaseLobe::Kind::droplets:
-        return optics::PhaseKind::droplets;
-    }
-    return optics::PhaseKind::isotropic;
-  }
-
   // What a lobe's number is called and where it belongs.
-  NumberRange range_of(optics::PhaseKind kind, std::size_t parameter, Span span) const {
-    const optics::PhaseParameter& p = optics::parameters(kind)[parameter];
-    return {fmt::format("{} of {}", p.name, optics::keyword(kind)), span, p.lowest, p.highest};
+  NumberRange range_of(optics::PhaseKind kind, std::size_t parameter, const Output& output) const {
+    const optics::PhaseInfo& function = optics::info(kind);
+    const optics::PhaseParameter& p = function.parameters[parameter];
+    return {fmt::format("{} of {}", p.name, function.keyword),
+            output.span,
+            p.lowest,
+            p.highest,
+            false,
+            false,
+            output.branches};
   }
 
   scene::PhaseLobe::Number number(const Scalar& s, Span span) {
@@ -170,19 +170,19 @@ class MediumCompiler {
 
   // Mixtures keep the sum of weights at 1 (weights of b in [0, 1]), so nothing is left to normalise.
   std::vector<scene::PhaseLobe> lobes() {
-    if (!outputs_[phase]) return {scene::PhaseLobe{optics::PhaseKind::isotropic, {}, {1}}};
+    if (!outputs_[phase]) return {scene::PhaseLobe{optics::phase_kind<optics::Isotropic>, {}, {1}}};
     std::vector<scene::PhaseLobe> result;
     const Output& output = *outputs_[phase];
     const auto* mixture = output.value.get<std::vector<eval::PhaseLobe>>();
     CHECK(mixture != nullptr);
     for (const eval::PhaseLobe& lobe : *mixture) {
-      scene::PhaseLobe compiled{kind(lobe.kind), {}, number(lobe.weight, output.span)};
-      for (std::size_t k = 0; k < optics::parameters(compiled.kind).size(); ++k)
+      scene::PhaseLobe compiled{lobe.kind, {}, number(lobe.weight, output.span)};
+      for (std::size_t k = 0; k < optics::info(lobe.kind).parameters.size(); ++k)
         compiled.parameters[k] =
-            number(limits_.limited(lobe.parameters[k], range_of(compiled.kind, k, output.span), lobe.weight),
+            number(limits_.limited(lobe.parameters[k], range_of(compiled.kind, k, output), lobe.weight),
                    output.span);
       for (const Scalar& share : lobe.shares)
-        limits_.show(share, {"w of mix", output.span, 0, 1}, lobe.weight);
+        limits_.show(share, {"w of mix", output.span, 0, 1, false, false, output.branches}, lobe.weight);
       result.push_back(compiled);
     }
     return result;

@@ -12,7 +12,7 @@ Scalar Limits::limit(const Scalar& given, const NumberRange& range) {
 
 Scalar Limits::limited(const Scalar& given, const NumberRange& range) {
   if (given.known()) return given;
-  shown_.push_back({given, range});
+  if (!range.branches.constant) shown_.push_back({given, range});
   return limit(given, range);
 }
 
@@ -38,11 +38,16 @@ std::vector<scene::GivenNumber> Limits::given(OutputList& full, OutputList& exti
     number.output = full.index(value, range.span);
     number.scales = range.scales;
     const bool again = std::any_of(out.begin(), out.end(), [&](const scene::GivenNumber& other) {
-      return other.output == number.output && other.lowest == number.lowest &&
-             other.highest == number.highest;
+      return other.output == number.output && other.span == number.span && other.name == number.name;
     });
     if (again) continue;
     if (range.in_extinction) number.extinction_output = extinction.index(value, range.span);
+    if (range.branches.places.size() > 1) {
+      number.branches = range.branches.places;
+      number.branch_output = full.index(range.branches.taken, range.span);
+      if (range.in_extinction)
+        number.extinction_branch_output = extinction.index(range.branches.taken, range.span);
+    }
     out.push_back(std::move(number));
   }
   return out;

@@ -17,6 +17,7 @@ struct NumberRange {
   double lowest = 0, highest = 0;
   bool scales = false;         // a coefficient, or one's factor
   bool in_extinction = false;  // one of extinction
+  eval::Evaluator::Branches branches{};
 };
 
 // Limits numbers, and remembers them as the body gave them. Known ones are in their range: the others were

@@ -37,8 +37,10 @@ static bool in_range(eval::Evaluator& evaluator, const OutputRule& rule, const V
     const eval::Scalar& s = value.scalars[i];
     if (!s.known()) continue;
     if (!std::isfinite(s.value)) {
+      const bool infinite = std::isinf(s.value);
       evaluator.error(span, fmt::format("'{}' is not a finite number here", rule.name),
-                      "look for a division by zero");
+                      infinite ? "look for a division by zero"
+                               : "look for 0/0, or a root or logarithm of a negative number");
       return false;
     }
     if (s.value >= rule.lowest && s.value <= rule.highest && std::abs(s.value) <= largest) continue;
@@ -46,9 +48,9 @@ static bool in_range(eval::Evaluator& evaluator, const OutputRule& rule, const V
       evaluator.error(span, fmt::format("'{}' must be at most {}, found {}", rule.name, largest, s.value));
       return false;
     }
-    evaluator.error(
-        span, fmt::format("'{}' must be {}, found {}", rule.name, rule.range,
-                          value.known() ? eval::text_of(value) : eval::text_of(Value::number(s.value))),
+    evaluator.error(span,
+                    fmt::format("'{}' must be {}, found {}", rule.name, rule.range,
+                                value.known() ? eval::text_of(value) : eval::text_of(Value::number(s.value))),
                     help_for_share(rule, value));
     return false;
   }
@@ -113,23 +115,32 @@ std::vector<std::optional<Output>> run_body(eval::Evaluator& evaluator, const ev
   eval::Evaluator::Outputs settable;
   settable.owner = body.name;
   settable.names = names_of(rules);
-  settable.assign = [&](const syntax::Item& item, const syntax::AssignItem& assign, const Value& value) {
+  const auto rule_of = [&](const syntax::AssignItem& assign) {
     const std::string_view name = evaluator.text(assign.name.symbol);
     const auto rule =
         std::find_if(rules.begin(), rules.end(), [&](const OutputRule& r) { return r.name == name; });
     CHECK(rule != rules.end());
-    std::optional<Output>& output = outputs[static_cast<std::size_t>(rule - rules.begin())];
+    return static_cast<std::size_t>(rule - rules.begin());
+  };
+  settable.read = [&](const syntax::AssignItem& assign, const Value& value) {
+    const OutputRule& rule = rules[rule_of(assign)];
+    const Span span = body.tree->exprs[assign.value.index].span;
+    const Value converted =
+        evaluator.convert(rule.type, value, span, fmt::format("'{}'", rule.name), rule.widens);
+    if (converted.width() > 0) in_range(evaluator, rule, converted, span);
+    return converted;
+  };
+  settable.assign = [&](const syntax::Item& item, const syntax::AssignItem& assign, const Value& value,
+                        const eval::Evaluator::Branches& branches) {
+    const std::string_view name = evaluator.text(assign.name.symbol);
+    std::optional<Output>& output = outputs[rule_of(assign)];
     if (output) {
       evaluator.error(assign.name.span, fmt::format("'{}' is set twice", name),
                       "gather the value in a var and set the output once",
                       {{output->span, "the first is here"}});
       return;
     }
-    const Span span = body.tree->exprs[assign.value.index].span;
-    const Value converted =
-        evaluator.convert(rule->type, value, span, fmt::format("'{}'", name), rule->widens);
-    if (converted.width() > 0) in_range(evaluator, *rule, converted, span);
-    output = Output{converted, item.span};
+    output = Output{value, item.span, branches};
   };
   evaluator.run_steps(*body.tree, body.block, scope, &settable);
   // An output may also be poisoned by a mistake that was reported elsewhere.

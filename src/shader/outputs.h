@@ -29,7 +29,8 @@ std::span<const OutputRule> material_outputs();
 // One output as the body set it.
 struct Output {
   eval::Value value;
-  Span span;  // of the assignment's name
+  Span span;  // of the assignment
+  eval::Evaluator::Branches branches;
 };
 
 // Runs the body and gives the value of each rule's output, by index; nothing where it was not set. Reports

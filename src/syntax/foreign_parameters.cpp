@@ -27,7 +27,7 @@ constexpr std::string_view power = "write power: … in watts, times a colour";
 constexpr std::string_view radiance = "write radiance: …, a number or a colour";
 constexpr std::string_view irradiance = "write irradiance: …, a number or a colour";
 constexpr std::string_view glow = "write material: { emission = … }";
-constexpr std::string_view direction = "write direction: (x, y, z), the way its light travels";
+constexpr std::string_view direction = "write direction: (x, y, z), the direction in which its light travels";
 constexpr std::string_view points = "write points: [(x, y, z), …]";
 constexpr std::string_view triangles = "write triangles: [(0, 1, 2), …]";
 constexpr std::string_view shape = "write in: sphere { … }, or another closed shape";

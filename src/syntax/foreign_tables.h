@@ -6,6 +6,7 @@
 namespace tyndall::syntax {
 
 std::span<const ForeignWord> foreign_values();      // foreign_values.cpp
+std::span<const ForeignWord> foreign_operators();   // foreign_values.cpp
 std::span<const ForeignWord> foreign_parameters();  // foreign_parameters.cpp
 std::span<const ForeignWord> foreign_outputs();     // foreign_parameters.cpp
 

@@ -24,6 +24,9 @@ constexpr std::string_view range = "write 0..<n";
 constexpr std::string_view turn = "write rotate((x, y, z), angle), or rotate_y(angle)";
 constexpr std::string_view log = "write log(x), divided by log of the base";
 
+constexpr std::string_view no_infinity = "no number is infinite: write a large one, such as 1e9";
+constexpr std::string_view no_modules = "functions have no module before them: write sin(x), sqrt(x), pi";
+
 constexpr ForeignWord values[] = {
     // colours and vectors
     {"rgb", color},
@@ -136,6 +139,55 @@ constexpr ForeignWord values[] = {
     {"vrotate", "write rotate_y(p, angle)"},
     {"None", "there is no empty value: leave the parameter out"},
     {"null", "there is no empty value: leave the parameter out"},
+    {"undefined", "there is no empty value: leave the parameter out"},
+    {"nil", "there is no empty value: leave the parameter out"},
+    {"nullptr", "there is no empty value: leave the parameter out"},
+    {"none", "there is no empty value: leave the parameter out"},
+    {"yes", "write true"},
+    {"no", "write false"},
+    {"on", "write true"},
+    {"off", "write false"},
+    {"Yes", "write true"},
+    {"No", "write false"},
+    {"TRUE", "write true"},
+    {"FALSE", "write false"},
+    {"inf", no_infinity},
+    {"Inf", no_infinity},
+    {"infinity", no_infinity},
+    {"Infinity", no_infinity},
+    {"INFINITY", no_infinity},
+    {"nan", "there is no value for nothing: leave the parameter out"},
+    {"NaN", "there is no value for nothing: leave the parameter out"},
+    {"Math", no_modules},
+    {"math", no_modules},
+    {"np", no_modules},
+    {"numpy", no_modules},
+    {"std", no_modules},
+    {"glm", no_modules},
+    {"M_PI", "write pi"},
+    {"float", "write if condition then 1 else 0; a number needs no conversion"},
+    {"double", "write if condition then 1 else 0; a number needs no conversion"},
+    {"bool", "write x != 0"},
+    {"new", "leave it out: a thing is a value as it is, as in sphere { … }"},
+    {"vec4", vec},
+    {"float2", vec},
+    {"float4", vec},
+    {"iTime", "write time, in seconds"},
+    {"u_time", "write time, in seconds"},
+    {"gl_FragCoord", "a body sees p, the place in its shape, and P, that in the world"},
+    {"fragCoord", "a body sees p, the place in its shape, and P, that in the world"},
+    {"texture2D", image},
+    {"fmod", "write mod(a, b)"},
+    {"sphere", "a shape has its braces: write sphere {}"},
+    {"box", "a shape has its braces: write box { min: (-1, -1, -1)  max: (1, 1, 1) }"},
+    {"cylinder", "a shape has its braces: write cylinder { from: (0, 0, 0)  to: (0, 1, 0)  radius: 1 }"},
+    {"cone", "a shape has its braces: write cone { from: (0, 0, 0)  to: (0, 1, 0)  radius: 1 }"},
+    {"torus", "a shape has its braces: write torus { radius: 1  tube: 0.25 }"},
+    {"disk", "a shape has its braces: write disk { center: (0, 0, 0)  normal: (0, 1, 0)  radius: 1 }"},
+    {"quad", "a shape has its braces: write quad { center: (0, 0, 0)  u: (1, 0, 0)  v: (0, 0, 1) }"},
+    {"plane", "a shape has its braces: write plane { point: (0, 0, 0)  normal: (0, 1, 0) }"},
+    {"mesh", "a shape has its braces: write mesh { points: [ … ]  triangles: [ … ] }"},
+    {"curves", "a shape has its braces: write curves { points: [ … ]  radius: … }"},
     {"True", "write true"},
     {"False", "write false"},
     {"clock", "write time, in seconds, or frame"},
@@ -172,8 +224,36 @@ constexpr ForeignWord values[] = {
     {"print", "nothing is printed: `tyndall inspect` shows what a scene became"},
 };
 
+// Words between two values.
+constexpr std::string_view upwards = "a range is written 0..10, or 0..<10 without its end";
+constexpr std::string_view in_steps = "the step of a range is its third part: 0..10..2";
+constexpr ForeignWord operators[] = {
+    {"mod", "write mod(a, b)"},
+    {"rem", "write mod(a, b)"},
+    {"div", "write floor(a / b)"},
+    {"x", "a product is written a * b, a pair (a, b)"},
+    {"times", "write a * b"},
+    {"cross", "write cross(a, b)"},
+    {"dot", "write dot(a, b)"},
+    {"xor", "write a != b"},
+    {"is", "write a == b"},
+    {"eq", "write a == b"},
+    {"ne", "write a != b"},
+    {"lt", "write a < b"},
+    {"le", "write a <= b"},
+    {"gt", "write a > b"},
+    {"ge", "write a >= b"},
+    {"to", upwards},
+    {"until", upwards},
+    {"upto", upwards},
+    {"downto", "a range that falls is written 10..0..-1"},
+    {"step", in_steps},
+    {"by", in_steps},
+};
+
 }  // namespace
 
 std::span<const ForeignWord> foreign_values() { return values; }
+std::span<const ForeignWord> foreign_operators() { return operators; }
 
 }  // namespace tyndall::syntax

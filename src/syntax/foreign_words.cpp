@@ -31,6 +31,8 @@ constexpr std::string_view render = "write render { resolution: (width, height) 
 constexpr std::string_view loop = "write for i in 0..<10 { … }";
 constexpr std::string_view include = "write include \"file.tyn\"";
 constexpr std::string_view no_printing = "nothing is printed: `tyndall inspect` shows what a scene became";
+constexpr std::string_view no_break =
+    "a loop runs to its end: put what may be left out in if condition { … }";
 constexpr std::string_view else_if = "write else if condition { … }";
 constexpr std::string_view choice = "write if condition { … } else { … }";
 constexpr std::string_view definition = "write let name = value, or def name(x) = value";
@@ -40,9 +42,6 @@ constexpr std::string_view round_tube = "write curves { points: [ … ] radius: 
 
 constexpr ForeignWord statements[] = {
     // shapes
-    {"cone", "write curves { points: [from, to] radius: [r, 0] }, or mesh { … }"},
-    {"torus",
-     "write curves { points: [ … ] radius: … } along a circle; in a density: sd_torus(p, radius, tube)"},
     {"text", "there are no letters: write mesh { points: [ … ] triangles: [ … ] }"},
     {"heightfield", mesh},
     {"height_field", mesh},
@@ -69,6 +68,8 @@ constexpr ForeignWord statements[] = {
     {"ellipsoid", "write sphere { transform: scale((x, y, z)) }"},
     {"rectangle", "write quad { center: … u: … v: … }"},
     {"rect", "write quad { center: … u: … v: … }"},
+    {"frustum", "write cone { from: … to: … radius: … tip_radius: … }"},
+    {"donut", "write torus { center: … normal: … radius: … tube: … }"},
     {"circle", "write disk { center: … normal: … radius: … }"},
     {"sphere_sweep", round_tube},
     {"capsule", round_tube},
@@ -141,19 +142,53 @@ constexpr ForeignWord statements[] = {
     {"require", include},
     {"print", no_printing},
     {"echo", no_printing},
+    {"break", no_break},
+    {"continue", no_break},
+    {"console", no_printing},
+    {"printf", no_printing},
+    {"debug", no_printing},
+    {"assert", no_printing},
     {"const", definition},
     {"float", definition},
     {"int", definition},
+    {"uint", definition},
     {"double", definition},
+    {"half", definition},
+    {"number", definition},
+    {"bool", definition},
+    {"boolean", definition},
+    {"str", definition},
+    {"string", definition},
+    {"list", definition},
+    {"auto", definition},
+    {"static", definition},
+    {"final", definition},
+    {"local", definition},
+    {"global", definition},
+    {"uniform", definition},
+    {"varying", definition},
+    {"vec2", definition},
     {"vec3", definition},
+    {"vec4", definition},
+    {"mat3", definition},
+    {"mat4", definition},
+    {"vector", definition},
+    {"param", definition},
     {"set", definition},
     {"define", definition},
+    {"void", function},
     {"function", function},
     {"func", function},
     {"fn", function},
     {"fun", function},
     {"macro", "write def name(parameters) { … }"},
     {"class", object},
+    {"struct", object},
+    {"new", "leave it out: a thing is there where it is written, as in sphere { … }"},
+    {"REM", "a comment begins with '//'"},
+    {"rem", "a comment begins with '//'"},
+    {"Rem", "a comment begins with '//'"},
+    {"begin", "a block begins with '{'"},
     {"pass", "leave it out: a block may be empty"},
     // PBRT
     {"LookAt", look},
@@ -226,8 +261,8 @@ constexpr ForeignWord lights[] = {
     {"goniometric", spot},
     {"projection", spot},
     {"laser", spot},
-    {"cylinder", "write light mesh { in: cylinder { … } power: … }"},
-    {"tube", "write light mesh { in: cylinder { … } power: … }"},
+    {"tube", "write light cylinder { from: … to: … radius: … power: … }"},
+    {"torus", "write light mesh { in: torus { … } power: … }"},
     {"box", "write light mesh { in: box { … } power: … }"},
     {"shape", "write light mesh { in: … power: … }"},
     {"diffuse", "write light mesh { in: … power: … }"},
@@ -288,6 +323,9 @@ constexpr ForeignWord units[] = {
     {"px", no_unit},
     {"spp", no_unit},
     {"ev", no_unit},
+    {"e", "digits follow the e: write 1e3"},
+    {"k", "write 1000 times it, or 1e3"},
+    {"M", "write 1e6 times it"},
     {"f", "leave it out: numbers have no suffix"},
     {"F", "leave it out: numbers have no suffix"},
     {"L", "leave it out: numbers have no suffix"},
@@ -312,6 +350,8 @@ std::span<const ForeignWord> foreign_words(ForeignUse use) {
       return foreign_outputs();
     case ForeignUse::unit:
       return units;
+    case ForeignUse::between:
+      return foreign_operators();
   }
   return {};
 }

@@ -16,6 +16,7 @@ enum class ForeignUse : std::uint8_t {
   parameter,  // sphere { position: … }
   output,     // medium: { g = … }
   unit,       // 3degrees
+  between,    // 5 mod 3
 };
 
 struct ForeignWord {

@@ -97,6 +97,7 @@ class Formatter {
   bool may_break(std::uint32_t left, std::uint32_t right) const;
   std::size_t spaces_between(std::uint32_t left, std::uint32_t right) const;
   std::size_t flat_width(std::uint32_t first, std::uint32_t last) const;
+  std::size_t most_comment_width(std::uint32_t last) const;
   bool fits(std::uint32_t open, std::uint32_t last, std::size_t spaces) const;
   bool joins_parameters(std::uint32_t i) const;
   std::size_t source_column(std::uint32_t offset);
@@ -155,7 +156,16 @@ bool Formatter::joins_parameters(std::uint32_t i) const {
     return false;
   if (line_breaks(end_of(before_), tokens_[i].span.begin) > 0 || lines_.count() != item_line_) return false;
   const std::uint32_t last = marks_[i].item_end;
-  return on_one_line(i, last) && lines_.column() + 2 + flat_width(i, last) <= max_columns;
+  return on_one_line(i, last) &&
+         lines_.column() + 2 + flat_width(i, last) + most_comment_width(last) <= max_columns;
+}
+
+// The columns that the comments up to the end of a token take at most, spaces included.
+std::size_t Formatter::most_comment_width(std::uint32_t last) const {
+  std::size_t width = 0;
+  for (std::size_t k = next_comment_; k < comments_.size() && comments_[k].begin < end_of(last); ++k)
+    width += 2 + columns(text_.substr(comments_[k].begin, comments_[k].end - comments_[k].begin));
+  return width;
 }
 
 // Whether tokens up to `last`, and the brackets that close after it, have room on the line.

@@ -69,7 +69,8 @@ class Marker {
     const std::uint32_t first = token_at(item.span.begin);
     marks_[first].item_end = token_before(item.span.end);
     const auto equals_after = [&](const Name& name) {
-      const std::uint32_t next = token_at(name.span.begin) + 1;
+      std::uint32_t next = token_at(name.span.begin) + 1;
+      if (kind(next) == TokenKind::left_bracket) next = marks_[next].match + 1;  // l[i] = x
       if (kind(next) == TokenKind::equals) marks_[next].defines = true;
     };
     if (std::holds_alternative<ParameterItem>(item.node)) {

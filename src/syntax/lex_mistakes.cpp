@@ -56,7 +56,12 @@ bool Lexer::mistaken_mark() {
       {"-=", TokenKind::error, assign, "write a = a - b"},
       {"*=", TokenKind::error, assign, "write a = a * b"},
       {"/=", TokenKind::error, assign, "write a = a / b"},
+      {"%=", TokenKind::error, assign, "write a = mod(a, b)"},
+      {"^=", TokenKind::error, assign, "write a = a ^ b"},
       {"++", TokenKind::error, "'++' means nothing here", "write a = a + 1"},
+      {"<!--", TokenKind::error, "'<!--' means nothing here", "a comment begins with '//', or is /* … */"},
+      {"<<", TokenKind::error, "'<<' means nothing here", "write a * 2^b"},
+      {">>", TokenKind::error, "'>>' means nothing here", "write floor(a / 2^b)"},
       {"*/", TokenKind::error, "no comment is open here", "'/*' opens one"},
       {"&&", TokenKind::kw_and, "'&&' is written 'and'", ""},
       {"&", TokenKind::kw_and, "'&' is written 'and'", ""},
@@ -66,10 +71,15 @@ bool Lexer::mistaken_mark() {
       {"%", TokenKind::error, "'%' is joined to a number (50%)", "a remainder is mod(a, b)"},
   };
   const std::uint32_t begin = at_;
+  if (peek() == '|' && absolute_bars()) return true;
   for (const Mistake& mistake : mistakes) {
     if (!starts_with(mistake.text)) continue;
     at_ += static_cast<std::uint32_t>(mistake.text.size());
     diagnostics_.error(span_from(begin), std::string(mistake.message), std::string(mistake.help));
+    if (mistake.text == "<!--") {
+      while (!at_end() && peek() != '\n') ++at_;
+      return true;
+    }
     emit(mistake.meant, begin);
     return true;
   }
@@ -80,6 +90,43 @@ bool Lexer::mistaken_mark() {
     return true;
   }
   return false;
+}
+
+// `|x|`: a bar where a value begins, up to the next one of its line. Read as parentheses. True if it, or its
+// end, stood here.
+bool Lexer::absolute_bars() {
+  const std::uint32_t begin = at_;
+  if (begin == closing_bar_) {
+    ++at_;
+    emit(TokenKind::right_paren, begin);
+    return true;
+  }
+  const TokenKind last = out_.tokens.empty() ? TokenKind::comma : out_.tokens.back().kind;
+  static constexpr TokenKind ends_of_values[] = {
+      TokenKind::name,        TokenKind::number,  TokenKind::color,        TokenKind::string,
+      TokenKind::string_tail, TokenKind::kw_true, TokenKind::kw_false,     TokenKind::right_paren,
+      TokenKind::right_brace, TokenKind::error,   TokenKind::right_bracket};
+  const std::size_t end = text_.find_first_of("|\n", begin + 1);
+  if (std::find(std::begin(ends_of_values), std::end(ends_of_values), last) != std::end(ends_of_values) ||
+      end == std::string_view::npos || end == begin + 1 || text_[end] != '|')
+    return false;
+  closing_bar_ = static_cast<std::uint32_t>(end);
+  ++at_;
+  diagnostics_.error({source_, begin, closing_bar_ + 1}, "'|' are no brackets",
+                     fmt::format("write abs({})", text_.substr(begin + 1, end - begin - 1).substr(0, 80)));
+  emit(TokenKind::left_paren, begin);
+  return true;
+}
+
+// `30°` and `30 °`, read as degrees. False after what is no plain number.
+bool Lexer::degree_sign(std::uint32_t begin) {
+  if (out_.tokens.empty()) return false;
+  Token& number = out_.tokens.back();
+  if (number.kind != TokenKind::number || number.unit != Unit::none) return false;
+  const std::string_view digits = text_.substr(number.span.begin, number.span.end - number.span.begin);
+  number.unit = with_unit("deg", number.number);
+  diagnostics_.error(span_from(begin), "'°' is not of this language", fmt::format("write {}deg", digits));
+  return true;
 }
 
 // `#rgb`, `#rrggbb`, and the directives of other languages.
@@ -166,8 +213,12 @@ void Lexer::mistaken_character() {
     emit(TokenKind::error, begin);
     return;
   }
-  fail(begin, fmt::format("'{}' means nothing here", c),
-       c == '`' ? "strings are written in \"double quotes\"" : "");
+  const std::string_view help = c == '`'    ? "strings are written in \"double quotes\""
+                                : c == '~'  ? "'not' turns true and false round; '!=' is 'not equal'"
+                                : c == '\\' ? "leave it out: a line may be broken anywhere"
+                                            : "leave it out: a name has letters, digits and _";
+  if (c == '~' && peek() == '=') ++at_;
+  fail(begin, fmt::format("'{}' means nothing here", text_.substr(begin, at_ - begin)), std::string(help));
 }
 
 namespace {
@@ -193,6 +244,10 @@ constexpr Lookalike lookalikes[] = {
     {0x00b0, TokenKind::error, "write 30deg"},
     {0x00b2, TokenKind::error, "write x^2"},
     {0x00b3, TokenKind::error, "write x^3"},
+    {0x03c0, TokenKind::error, "write pi"},
+    {0x221a, TokenKind::error, "write sqrt(x)"},
+    {0x00bd, TokenKind::error, "write 0.5"},
+    {0x221e, TokenKind::error, "no number is infinite: write a large one, such as 1e9"},
     {0xff0c, TokenKind::comma, "write ','"},
     {0xff1a, TokenKind::colon, "write ':'"},
     {0xff08, TokenKind::left_paren, "write '('"},
@@ -245,6 +300,7 @@ void Lexer::foreign_character() {
   }
   at_ += c.bytes;
   if (is_odd_space(c.value)) return count(odd_spaces_, begin);
+  if (c.value == 0xb0 && degree_sign(begin)) return;
   if (const Lookalike* row = find_lookalike(c.value)) {
     diagnostics_.error(span_from(begin),
                        fmt::format("'{}' is not of this language", text_.substr(begin, c.bytes)),

@@ -65,11 +65,22 @@ std::string unit_help(std::string_view digits, std::string_view suffix) {
                               : "numbers are decimal";
   if (const std::string_view help = help_for_foreign_word(ForeignUse::unit, suffix); !help.empty())
     return std::string(help);
+  const auto only_digits = [](std::string_view text) {
+    return !text.empty() &&
+           std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '_'; });
+  };
+  if (suffix[0] == 'x' && only_digits(suffix.substr(1)))
+    return fmt::format("a pair is written ({0}, {1}), a product {0} * {1}", digits, suffix.substr(1));
+  if (suffix[0] == '_' && only_digits(suffix)) {
+    std::string joined(digits);
+    std::copy_if(suffix.begin(), suffix.end(), std::back_inserter(joined), [](char c) { return c != '_'; });
+    return fmt::format("digits stand together: write {}", joined);
+  }
   std::vector<std::string_view> names;
   for (const UnitRow& row : unit_table) names.push_back(row.name);
   if (const std::string_view near = nearest(suffix, names); !near.empty() && suffix.size() > 1)
     return fmt::format("did you mean '{}'?", near);
-  return fmt::format("the units are {}; a product is written with '*'", fmt::join(names, " "));
+  return fmt::format("the units are {}; a product is written {} * {}", fmt::join(names, " "), digits, suffix);
 }
 
 const UnitRow* find_unit(std::string_view name) {

@@ -25,6 +25,7 @@ void Lexer::string(std::uint32_t begin, TokenKind kind_if_whole, TokenKind kind_
     const char c = peek();
     if (c == '"') {
       ++at_;
+      if (at_ == begin + 2 && peek() == '"' && triple_quotes(begin)) return;
       break;
     }
     if (c == '{') {
@@ -47,6 +48,19 @@ void Lexer::string(std::uint32_t begin, TokenKind kind_if_whole, TokenKind kind_
   emit(kind, begin).text = static_cast<std::uint32_t>(out_.strings.size());
   out_.strings.push_back(std::move(piece));
   if (kind == kind_if_split) open_interpolation();
+}
+
+// A text in three quotes, over several lines perhaps. False where it never ends.
+bool Lexer::triple_quotes(std::uint32_t begin) {
+  const std::size_t end = text_.find("\"\"\"", begin + 3);
+  if (text_[begin] != '"' || end == std::string_view::npos) return false;
+  at_ = begin + 3;
+  diagnostics_.error(span_from(begin), "a string has one quote on each side",
+                     "write \"…\" on one line; \\n in it begins a new one");
+  at_ = static_cast<std::uint32_t>(end + 3);
+  emit(TokenKind::string, begin).text = static_cast<std::uint32_t>(out_.strings.size());
+  out_.strings.emplace_back(text_.substr(begin + 3, end - begin - 3));
+  return true;
 }
 
 void Lexer::open_interpolation() {

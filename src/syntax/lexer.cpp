@@ -6,14 +6,12 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "base/flood.h"
 #include "base/line_ends.h"
 
 namespace tyndall::syntax {
 
 namespace {
-
-// Room made at once for the tokens of a text; more grows by doubling.
-constexpr std::size_t max_tokens_reserved = std::size_t{1} << 24;
 
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
@@ -53,7 +51,8 @@ TokenList lex(const Sources& sources, SourceId source, Diagnostics& diagnostics,
 
 TokenList Lexer::run() {
   CHECK_LT(text_.size(), std::size_t{0xffffffff});
-  out_.tokens.reserve(std::min(text_.size() / 4 + 16, max_tokens_reserved));
+  // No more than are read, so that growing seldom copies them: what is not used takes no memory.
+  out_.tokens.reserve(std::min(text_.size() / 2 + 16, max_tokens_ + 16));
   if (!not_text()) {
     if (starts_with(byte_order_mark)) at_ = byte_order_mark.size();
     while (!at_end() && !too_much()) next_token();
@@ -69,8 +68,16 @@ TokenList Lexer::run() {
 bool Lexer::too_much() {
   // The parser, which tells of nesting, reads no such depth.
   if (open_brackets_ + interpolations_.size() > most_open_brackets) return true;
-  if (out_.tokens.size() < max_tokens_) return false;
-  fail(at_, fmt::format("more than {} words and marks", max_tokens_),
+  if (flooded(diagnostics_)) return true;
+  const std::size_t words = out_.tokens.size() + out_.comments.size();
+  const bool too_many_strings = out_.strings.size() > max_strings;
+  if (words < max_tokens_ && !too_many_strings) return false;
+  // Their tree would take several times the memory, for nothing.
+  out_ = {};
+  interpolations_.clear();
+  fail(at_,
+       too_many_strings ? fmt::format("more than {} strings", max_strings)
+                        : fmt::format("more than {} words, marks and comments", max_tokens_),
        "split the file: each of those it includes may have as many");
   return true;
 }

@@ -58,6 +58,9 @@ class Lexer {
   // lex_mistakes.cpp
   bool not_text();
   bool mistaken_mark();
+  bool absolute_bars();
+  bool degree_sign(std::uint32_t begin);
+  bool triple_quotes(std::uint32_t begin);
   void hash();
   void single_quotes();
   void mistaken_character();
@@ -106,6 +109,7 @@ class Lexer {
   };
   std::vector<Interpolation> interpolations_;
   std::uint32_t bad_escape_in_ = 0xffffffffu;  // begin of the last string with an unknown escape
+  std::uint32_t closing_bar_ = 0xffffffffu;    // of `|x|`
   bool after_directive_ = false;  // of POV-Ray, told already: the `;` that ends it is not told, too
   Habit semicolons_, undecodable_, control_characters_, odd_spaces_;
 };

@@ -37,7 +37,8 @@ SyntaxTree Parser::file() {
   std::vector<ItemId> list;
   items(list, std::nullopt);
   tree_.file = add_block(0, list, 0);
-  tree_.gave_up = gave_up_;
+  const bool nothing_read = tokens_.tokens.size() == 2 && tokens_.tokens[0].kind == TokenKind::error;
+  tree_.gave_up = gave_up_ || nothing_read;
   return std::move(tree_);
 }
 
@@ -62,7 +63,7 @@ BlockId Parser::block(BlockPlace place, std::string_view owner) {
     const bool in_header = std::exchange(brace_opens_body_, false);
     if (bare) {
       note_mistake(peek().span, fmt::format("expected '{{' after {}, found {}", owner, found()),
-                   "what belongs to it stands in braces: { … }");
+                   "what belongs to it goes in braces: { … }");
       if (const std::optional<ItemId> only = item()) list.push_back(*only);
     } else {
       items(list, peek().span);

@@ -77,7 +77,7 @@ BlockId Parser::indented_block(BlockPlace place, std::string_view owner) {
   const std::uint32_t outer_tallest = std::exchange(tallest_, 0);
   const std::size_t header = diagnostics_.full() ? 0 : indentation(peek().span);
   note_mistake(take().span, fmt::format("expected '{{' after {}, found ':'", owner),
-               "what belongs to it stands in braces, however it is indented: { … }");
+               "what belongs to it goes in braces, however it is indented: { … }");
   std::vector<ItemId> list;
   if (enter()) {
     const BlockPlace outer_place = std::exchange(place_, place);
@@ -104,11 +104,28 @@ bool Parser::begins_thing() const {
 bool Parser::statement_of_others(const Name& keyword) {
   const std::string_view help = help_for_foreign_word(ForeignUse::statement, text(keyword));
   if (help.empty()) return false;
-  fail(keyword.span, fmt::format("no statement '{}'", text(keyword)), std::string(help));
-  if (at(TokenKind::name))
-    tree_.unread_definitions.push_back(symbols_.intern(text(peek())));  // `float x = 1`
+  const bool definition = at(TokenKind::name) && !first_on_line(at_);  // `float x = 1`
+  fail(keyword.span, fmt::format("no statement '{}'", text(keyword)),
+       definition && kind(1) == TokenKind::equals ? fmt::format("write let {} = …", text(peek()))
+                                                  : std::string(help));
+  if (definition) tree_.unread_definitions.push_back(symbols_.intern(text(peek())));
   skip_line();
   return true;
+}
+
+// A word that begins nothing: on a line of its own, or before a name that is set.
+std::optional<Parser::ItemNode> Parser::lone_word(const Name& keyword, bool alone) {
+  const std::string_view word = text(keyword), next = text(peek());
+  fail(keyword.span,
+       fmt::format("'{}' does nothing here: expected '{{', '(', ':' or '=' after it, found {}", word,
+                   alone ? "the end of the line" : found()),
+       alone
+           ? fmt::format("write {0} {{ … }} for a thing, {0}(…) for a template, let {0} = … for a name", word)
+           : fmt::format("write let {} = …", next));
+  if (alone) return std::nullopt;
+  tree_.unread_definitions.push_back(symbols_.intern(next));
+  skip_line();
+  return std::nullopt;
 }
 
 // The unit of a number that stands beside it, as in `5 cm`; the number's own where the next word begins
@@ -138,15 +155,12 @@ bool Parser::vector_word(const Name& name) const {
 }
 
 // `place tree` or `place tree()`, read as if `{}` stood there.
-PlaceItem Parser::placed_without_braces(const Name& name) {
-  const bool called = at(TokenKind::left_paren);
+PlaceItem Parser::placed_without_braces(const Name& name, ListRef arguments) {
+  const bool called = tokens_.tokens[at_ - 1].kind == TokenKind::right_paren;
   note_mistake(name.span, fmt::format("expected '{{' after 'place {}', found {}", text(name), found()),
-               called ? fmt::format("an object has no arguments: place {} {{ transform: … }}", text(name))
-                      : fmt::format("write place {} {{}}", text(name)));
-  if (called) skip_group();
-  if (at(TokenKind::left_brace)) return {name, block(BlockPlace::thing, "the object")};
+               fmt::format("write place {}{} {{}}", text(name), called ? "(…)" : ""));
   const std::uint32_t outer_tallest = std::exchange(tallest_, 0);
-  return {name, add_block(at_, {}, outer_tallest)};
+  return {name, arguments, add_block(at_, {}, outer_tallest)};
 }
 
 // The innermost statement of another program in whose braces the next token stands: what is wrong in there is

@@ -7,8 +7,7 @@
 
 namespace tyndall::syntax {
 
-// item = let | var | def | body | object | place | include | for | if | return | parameter | assign | thing |
-// call
+// item: any of those below
 std::optional<ItemId> Parser::item() {
   const std::uint32_t first = at_;
   std::optional<ItemNode> node = item_node();
@@ -35,6 +34,7 @@ std::optional<Parser::ItemNode> Parser::item_node() {
   for (const Rule& rule : rules)
     if (at(rule.keyword) && kind(1) != TokenKind::equals) return (this->*rule.read)();
   if (kind(1) == TokenKind::equals) return assign_item();
+  if (sets_entry()) return assign_entry();
   if (!at(TokenKind::name)) return not_an_item();
   if (kind(1) == TokenKind::left_paren) return call_item();
   return thing_item();
@@ -42,7 +42,8 @@ std::optional<Parser::ItemNode> Parser::item_node() {
 
 // A comma may follow `name: value`, and nothing else.
 void Parser::after_item(const std::optional<ItemId>& id) {
-  if (!id || !at(TokenKind::comma)) return;
+  if (!id || !(at(TokenKind::comma) || at(TokenKind::number))) return;
+  if (values_side_by_side(*id) || second_definition(*id) || !at(TokenKind::comma)) return;
   const Span comma = take().span;
   if (!std::holds_alternative<ParameterItem>(tree_[*id].node))
     note_mistake(comma, "no ',' is needed here", "commas may part 'name: value' pairs only");
@@ -61,11 +62,18 @@ std::optional<Name> Parser::new_name(std::string_view what) {
 
 // "=" expression, after the name that it defines.
 ExprId Parser::defined_value(const Name& name) {
+  if (at(TokenKind::equals)) {
+    take();
+    return expression();
+  }
+  skip_type();
   if (at(TokenKind::colon)) {
     note_mistake(take().span, "a name is defined with '='",
                  fmt::format("write {} = value; ':' gives a value to a parameter", text(name)));
   } else if (at(TokenKind::equal_equal)) {
     note_mistake(take().span, "a name is defined with one '='");
+  } else if (no_value_defined(name)) {
+    return error_expr();
   } else if (!expect(TokenKind::equals, fmt::format("'{}'", text(name)))) {
     return error_expr();
   }
@@ -75,7 +83,7 @@ ExprId Parser::defined_value(const Name& name) {
 // let = "let" name "=" expression
 std::optional<Parser::ItemNode> Parser::let_item() {
   take();
-  const std::optional<Name> name = new_name("what 'let' defines");
+  const std::optional<Name> name = name_without_type(new_name("what 'let' defines"));
   if (!name) return std::nullopt;
   if (at(TokenKind::left_paren)) {
     fail(peek().span, "'let' names a value, not a function", fmt::format("write def {}(…) = …", text(*name)));
@@ -87,7 +95,7 @@ std::optional<Parser::ItemNode> Parser::let_item() {
 // var = "var" name "=" expression
 std::optional<Parser::ItemNode> Parser::var_item() {
   take();
-  const std::optional<Name> name = new_name("a variable");
+  const std::optional<Name> name = name_without_type(new_name("a variable"));
   if (!name) return std::nullopt;
   return VarItem{*name, defined_value(*name)};
 }
@@ -104,6 +112,8 @@ std::optional<Parser::ItemNode> Parser::def_item() {
     fail(peek().span, fmt::format("expected '(' after '{}', found {}", text(*name), found()),
          "a function is written def f(x) = …, a value let a = …");
   }
+  const bool result_type = at(TokenKind::error) && text(peek()) == "->" && kind(1) == TokenKind::name;
+  if (result_type && kind(2) != TokenKind::name && !first_on_line(at_ + 2)) at_ += 2;
   const bool python = at(TokenKind::colon) && (kind(1) == TokenKind::kw_return || first_on_line(at_ + 1));
   if (at(TokenKind::left_brace) || python || panic_) {
     const BlockId body = block(BlockPlace::file, fmt::format("'{}'", text(*name)));
@@ -114,6 +124,9 @@ std::optional<Parser::ItemNode> Parser::def_item() {
   }
   if (at(TokenKind::colon)) {
     note_mistake(take().span, "a function is defined with '='");
+  } else if (at(TokenKind::kw_return)) {
+    note_mistake(take().span, "expected '=' or '{' after the parameters, found 'return'",
+                 fmt::format("write def {}(…) = value", text(*name)));
   } else if (!take_if(TokenKind::equals)) {
     fail(peek().span, fmt::format("expected '=' or '{{' after the parameters, found {}", found()),
          "a function is written def f(x) = …, a template def f(x) { … }");
@@ -129,8 +142,13 @@ std::optional<Parser::ItemNode> Parser::def_item() {
 ListRef Parser::parameters() {
   std::vector<Parameter> list;
   comma_list(TokenKind::right_paren, [&] {
-    const std::optional<Name> name = new_name("a parameter");
+    std::optional<Name> name = new_name("a parameter");
     if (!name) return;
+    if (at(TokenKind::name) && !first_on_line(at_)) {
+      note_mistake(name->span, "parameters have no types", fmt::format("leave '{}' out", text(*name)));
+      name = take_name();
+    }
+    skip_type();
     ExprId default_value;
     if (at(TokenKind::colon))
       note_mistake(peek().span, "a default is given with '='", fmt::format("write {} = value", text(*name)));
@@ -164,29 +182,34 @@ std::optional<Parser::ItemNode> Parser::body_item() {
   return BodyItem{body_kind, *name, list, block(BlockPlace::body, fmt::format("'{}'", text(*name)))};
 }
 
-// object = "object" name block
+// object = "object" name [ parameters ] block
 std::optional<Parser::ItemNode> Parser::object_item() {
   take();
   const std::optional<Name> name = new_name("an object");
   if (!name) return std::nullopt;
-  if (at(TokenKind::left_paren)) {
-    fail(peek().span, "an object has no parameters",
-         fmt::format("a template has: def {}(…) {{ … }}", text(*name)));
-    const bool reported = std::exchange(panic_, false);
-    parameters();
-    panic_ = reported && !at(TokenKind::left_brace);
+  const ListRef list = at(TokenKind::left_paren) ? parameters() : ListRef{};
+  if (at(TokenKind::equals)) {
+    note_mistake(take().span, "no '=' before what an object is made of",
+                 fmt::format("write object {} {{ sphere {{ … }} }}", text(*name)));
+    expression();
+    return std::nullopt;
   }
-  return ObjectItem{*name, block(BlockPlace::file, fmt::format("'{}'", text(*name)))};
+  return ObjectItem{*name, list, block(BlockPlace::file, fmt::format("'{}'", text(*name)))};
 }
 
-// place = "place" name block
+// place = "place" name [ "(" [ arguments ] ")" ] block
 std::optional<Parser::ItemNode> Parser::place_item() {
   take();
   const std::optional<Name> name = new_name("the object to place");
   if (!name) return std::nullopt;
+  ListRef arguments;
+  if (at(TokenKind::left_paren)) {
+    const ExprId called = call(add(at_ - 1, NameExpr{name->symbol}), at_ - 1);
+    if (const auto* good = std::get_if<CallExpr>(&tree_[called].node)) arguments = good->arguments;
+  }
   if (!at(TokenKind::left_brace) && !(is_word(kind()) && kind(1) == TokenKind::colon))
-    return placed_without_braces(*name);
-  return PlaceItem{*name, block(BlockPlace::thing, fmt::format("'place {}'", text(*name)))};
+    return placed_without_braces(*name, arguments);
+  return PlaceItem{*name, arguments, block(BlockPlace::thing, fmt::format("'place {}'", text(*name)))};
 }
 
 // include = "include" expression
@@ -200,25 +223,36 @@ std::optional<Parser::ItemNode> Parser::include_item() {
 // body.
 ExprId Parser::header_value() {
   const bool outer = std::exchange(brace_opens_body_, true);
-  const ExprId result = expression();
+  ExprId result = expression();
+  const bool comparison = at(TokenKind::equals);
+  const bool range = at(TokenKind::colon) && kind(1) == TokenKind::number && !first_on_line(at_ + 1);
+  if (!panic_ && (comparison || range)) {
+    note_mistake(take().span, comparison ? "a comparison is written '=='" : "a range is written '..'",
+                 comparison ? "write a == b" : "write 0..10, or 0..<10 without its end");
+    expression();
+    result = error_expr();
+  }
   brace_opens_body_ = outer;
   return result;
 }
 
-// for = "for" name "in" expression block
-std::optional<Parser::ItemNode> Parser::for_item() {
+// The name in "for" name "in", of a loop or a list; `help` shows how that is written.
+std::optional<Name> Parser::name_of_rounds(const std::string& help) {
   take();
-  if (at(TokenKind::left_paren))
-    fail(peek().span, "expected a name after 'for', found '('", "a loop is written: for i in 0..<10 { … }");
+  if (at(TokenKind::left_paren)) fail(peek().span, "expected a name after 'for', found '('", help);
   const std::optional<Name> name = panic_ ? std::nullopt : new_name("the loop's variable");
   if (name && !take_if(TokenKind::kw_in)) {
-    if (at(TokenKind::equals)) {
-      note_mistake(take().span, "expected 'in', found '='", "a loop is written: for i in 0..<10 { … }");
-    } else {
-      fail(peek().span, fmt::format("expected 'in', found {}", found()),
-           "a loop is written: for i in 0..<10 { … }");
-    }
+    if (at(TokenKind::equals))
+      note_mistake(take().span, "expected 'in', found '='", help);
+    else
+      fail(peek().span, fmt::format("expected 'in', found {}", found()), help);
   }
+  return name;
+}
+
+// for = "for" name "in" header_value block
+std::optional<Parser::ItemNode> Parser::for_item() {
+  const std::optional<Name> name = name_of_rounds("a loop is written: for i in 0..<10 { … }");
   const ExprId range = header_value();
   const BlockId body = block(place_, "the header of 'for'");
   if (!name) return std::nullopt;
@@ -230,7 +264,9 @@ std::optional<Parser::ItemNode> Parser::if_item() {
   take();
   const ExprId condition = header_value();
   if (at(TokenKind::kw_then)) {
-    note_mistake(take().span, "no 'then' in a statement", "write if condition { … } else { … }");
+    const Span then = take().span;  // what has no braces is told by them
+    if (at(TokenKind::left_brace))
+      note_mistake(then, "no 'then' in a statement", "write if condition { … } else { … }");
   }
   if (at(TokenKind::kw_else))
     fail(peek().span, "expected '{' after the condition of 'if', found 'else'",
@@ -284,7 +320,7 @@ std::optional<Parser::ItemNode> Parser::parameter_item() {
   return LetItem{name, expression()};
 }
 
-// assign = name "=" expression
+// assign = name "=" expression, or as assign_entry() reads it
 std::optional<Parser::ItemNode> Parser::assign_item() {
   const bool reserved = is_reserved(kind());
   const Name name = take_name();
@@ -305,7 +341,9 @@ std::optional<Parser::ItemNode> Parser::assign_item() {
 std::optional<Parser::ItemNode> Parser::thing_item() {
   const Name keyword = take_name();
   if (value_without_colon()) return parameter_without_colon(keyword);
-  if (!begins_thing() && statement_of_others(keyword)) return std::nullopt;
+  const bool alone = ends_line_alone(keyword);
+  if ((alone || !begins_thing()) && statement_of_others(keyword)) return std::nullopt;
+  if (alone || (at(TokenKind::name) && kind(1) == TokenKind::equals)) return lone_word(keyword, alone);
   std::string owner(text(keyword));
   const bool kind_follows = at(TokenKind::name) && kind(1) != TokenKind::colon &&
                             kind(1) != TokenKind::equals && kind(1) != TokenKind::left_paren;
@@ -317,20 +355,22 @@ std::optional<Parser::ItemNode> Parser::thing_item() {
   }
   if (at(TokenKind::string) || at(TokenKind::string_head)) file = string_value();
   if (at(TokenKind::dot) || at(TokenKind::left_bracket)) {
-    note_mistake(peek().span, fmt::format("parts of '{}' cannot be set or used as a statement", owner),
-                 "set the whole: name = value");
-    while (at(TokenKind::dot) || at(TokenKind::left_bracket) || at(TokenKind::name)) {
-      if (at(TokenKind::name) && tokens_.tokens[at_ - 1].kind != TokenKind::dot) break;
-      skip_group();
-    }
-    if (take_if(TokenKind::equals)) expression();
+    part_of_a_word(owner);
     return std::nullopt;
   }
   if (!at(TokenKind::left_brace) && !file.valid() && !kind_follows &&
       !(is_word(kind()) && kind(1) == TokenKind::colon)) {
     fail(keyword.span,
          fmt::format("'{}' does nothing here: expected '{{', '(', ':' or '=' after it, found {}", owner,
-                     found()));
+                     found()),
+         at(TokenKind::minus) && kind(1) == TokenKind::minus ? fmt::format("write {0} = {0} - 1", owner)
+                                                             : std::string{});
+    return std::nullopt;
+  }
+  if (kind_follows && !file.valid() && !at(TokenKind::left_brace) &&
+      !(is_word(kind()) && kind(1) == TokenKind::colon)) {
+    fail(keyword.span, fmt::format("expected '{{' after '{}', found {}", owner, found()),
+         fmt::format("write {} {{ … }}", owner));
     return std::nullopt;
   }
   const BlockId body = block(BlockPlace::thing, fmt::format("'{}'", owner));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "syntax/foreign_words.h"
 #include "syntax/recursive_parser.h"
 
 namespace tyndall::syntax {
@@ -71,7 +72,8 @@ ExprId Parser::expression() {
   if (!enter()) return leave(), error_expr();
   // A number that nothing continues, as in long lists, is all that operators() would find.
   const bool only_number = at(TokenKind::number) && ends_value(kind(1));
-  const ExprId result = only_number ? literal() : at(TokenKind::kw_if) ? conditional() : operators(or_level);
+  ExprId result = only_number ? literal() : at(TokenKind::kw_if) ? conditional() : operators(or_level);
+  if (at(TokenKind::error) && !panic_ && !first_on_line(at_)) result = value_before_error();
   leave();
   return result;
 }
@@ -107,7 +109,10 @@ ExprId Parser::operators(int loosest) {
   while (!panic_) {
     const bool is_range = at(TokenKind::dot_dot) || at(TokenKind::dot_dot_less);
     const OperatorRow* row = find_operator(kind());
-    if (row == nullptr && !is_range) break;
+    if (row == nullptr && !is_range) {
+      if (at(TokenKind::name) && word_for_operator(left)) continue;
+      break;
+    }
     const int level = is_range ? range_level : row->level;
     if (level < loosest) break;
     if (level == range_level || level == comparison_level) {
@@ -119,6 +124,23 @@ ExprId Parser::operators(int loosest) {
     left = add(first, BinaryExpr{row->op, left, right}, 1 + std::max(height(left), height(right)));
   }
   return left;
+}
+
+// `5 mod 3`, `0 to 10`: passes over a word that other languages have for an operator, and its right side.
+bool Parser::word_for_operator(ExprId& left) {
+  const TokenKind next = kind(1);
+  const bool value_follows = next == TokenKind::number || next == TokenKind::color ||
+                             (next == TokenKind::name && kind(2) != TokenKind::left_brace &&
+                              kind(2) != TokenKind::string && kind(2) != TokenKind::colon);
+  if (!value_follows || first_on_line(at_)) return false;
+  const std::string_view word = text(peek());
+  const std::string_view help = help_for_foreign_word(ForeignUse::between, word);
+  if (help.empty()) return false;
+  note_mistake(peek().span, fmt::format("'{}' is not an operator", word), std::string(help));
+  take();
+  operators(sum_level);
+  left = error_expr();
+  return true;
 }
 
 // The first operand of a level: negation = "not" negation | comparison; looser operators need parentheses

@@ -38,7 +38,7 @@ ExprId Parser::value() {
   if (at(TokenKind::number) || at(TokenKind::color) || at(TokenKind::kw_true) || at(TokenKind::kw_false))
     return literal();
   if (at(TokenKind::string) || at(TokenKind::string_head)) return string_value();
-  if (at(TokenKind::name)) return name_or_thing();
+  if (at(TokenKind::name)) return begins_next_statement() ? not_a_value() : name_or_thing();
   if (at(TokenKind::left_paren)) return tuple_or_group();
   if (at(TokenKind::left_bracket)) return list();
   if (at(TokenKind::left_brace) && !brace_opens_body_) return unnamed_body();
@@ -50,6 +50,7 @@ ExprId Parser::not_a_value() {
   std::string help;
   if (at(TokenKind::plus)) help = "leave the '+' out";
   if (at(TokenKind::equals)) help = "comparison is '=='";
+  if (at(TokenKind::name)) help = "the value before it is missing";
   if (at(TokenKind::kw_medium) || at(TokenKind::kw_material)) {
     help = fmt::format("an unnamed body is written {}: {{ … }}", spelling(kind()));
     if (kind(1) == TokenKind::left_brace && !brace_opens_body_) {  // the word is too much
@@ -68,6 +69,10 @@ ExprId Parser::not_a_value() {
 // unnamed_body = block, as in `medium: { density = 1 }`
 ExprId Parser::unnamed_body() {
   const std::uint32_t first = at_;
+  if (kind(1) == TokenKind::number || kind(1) == TokenKind::minus) {
+    fail(peek().span, "expected a value, found '{'", "a vec is written (x, y, z), a list [a, b, …]");
+    return error_expr();
+  }
   const BlockPlace place = first == braces_of_no_body_ ? BlockPlace::thing : BlockPlace::body;
   const BlockId body = block(place, "the value");
   return add(first, ThingExpr{{}, {}, body}, 1 + height(body));
@@ -86,7 +91,32 @@ ExprId Parser::literal() {
   return add(first, BoolExpr{token.kind == TokenKind::kw_true});
 }
 
-// string = '"' { character | escape | "{" expression "}" } '"'
+// format = ":" [ "0" digit { digit } ] [ "." digit ], without a space: zeros in front up to a width, and
+// decimals
+NumberFormat Parser::number_format() {
+  const Token& colon = take();
+  const std::string help = "write {x:.2} for two decimals, {i:04} for four digits";
+  NumberFormat format;
+  const std::string_view written =
+      at(TokenKind::number) && peek().span.begin == colon.span.end ? text(peek()) : std::string_view{};
+  const std::size_t point = std::min(written.find('.'), written.size());
+  const std::string_view width = written.substr(0, point), decimals = written.substr(point);
+  const auto digits = [](std::string_view text) {
+    return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  };
+  const bool good_width = width.empty() || (width[0] == '0' && width.size() <= 3 && digits(width));
+  const bool good_decimals = decimals.empty() || (decimals.size() == 2 && digits(decimals.substr(1)));
+  if (written.empty() || !good_width || !good_decimals) {
+    fail(colon.span, "expected the format of a number after ':'", help);
+    return format;
+  }
+  for (const char c : width) format.width = static_cast<std::uint8_t>(format.width * 10 + (c - '0'));
+  if (!decimals.empty()) format.decimals = static_cast<std::uint8_t>(decimals[1] - '0');
+  take();
+  return format;
+}
+
+// string = '"' { character | escape | "{" expression [ format ] "}" } '"'
 ExprId Parser::string_value() {
   const std::uint32_t first = at_;
   StringValue literal;
@@ -97,6 +127,7 @@ ExprId Parser::string_value() {
   while (last == TokenKind::string_head || last == TokenKind::string_middle) {
     literal.values.push_back(expression());
     tallest = std::max(tallest, height(literal.values.back()));
+    literal.formats.push_back(!panic_ && at(TokenKind::colon) ? number_format() : NumberFormat{});
     if (!panic_ && !ends_everything())
       fail(peek().span, fmt::format("expected '}}' after the value in a string, found {}", found()));
     while (!ends_everything()) skip_group();
@@ -107,6 +138,7 @@ ExprId Parser::string_value() {
   }
   brace_opens_body_ = in_header;
   literal.pieces.resize(literal.values.size() + 1);
+  literal.formats.resize(literal.values.size());
   tree_.strings.push_back(std::move(literal));
   return add(first, StringExpr{static_cast<std::uint32_t>(tree_.strings.size() - 1)}, 1 + tallest);
 }
@@ -115,7 +147,18 @@ ExprId Parser::string_value() {
 ExprId Parser::name_or_thing() {
   const std::uint32_t first = at_;
   const Name name = take_name();
+  if (at(TokenKind::number) && !first_on_line(at_)) {
+    note_mistake(join(name.span, peek().span), "an argument goes in parentheses",
+                 fmt::format("write {}({})", text(name), text(peek())));
+    take();
+    return error_expr();
+  }
   const bool file_follows = at(TokenKind::string) || at(TokenKind::string_head);
+  if (file_follows && letter_before_string(name)) {
+    note_mistake(name.span, fmt::format("no letter goes before a string, found '{}'", text(name)),
+                 "leave it out: braces in any string hold a value, as in \"leaf{i}.png\"");
+    return string_value();
+  }
   if (at(TokenKind::less) && vector_word(name)) return angle_bracket_vector();
   if (at(TokenKind::name) && !first_on_line(at_) && text(name) == "lambda") {
     fail(name.span, "a function has a name here", "write def f(x) = x * 2");
@@ -126,6 +169,11 @@ ExprId Parser::name_or_thing() {
     return add(first, NameExpr{name.symbol});
   ExprId file;
   if (file_follows) file = string_value();
+  if (!at(TokenKind::left_brace)) {
+    fail(name.span, fmt::format("expected '(' after '{}', found a string", text(name)),
+         fmt::format("a function is called with parentheses: {}(\"…\")", text(name)));
+    return error_expr();
+  }
   const BlockId body = block(BlockPlace::thing, fmt::format("'{}'", text(name)));
   return add(first, ThingExpr{name, file, body}, 1 + std::max(height(body), file.valid() ? height(file) : 0));
 }
@@ -182,10 +230,12 @@ ExprId Parser::angle_bracket_vector() {
   return add(first, ErrorExpr{});
 }
 
-// list = "[" [ expression { "," expression } [ "," ] ] "]"
+// list = "[" [ expression { "," expression } [ "," ] ] "]" | "[" expression each { each } "]"
 ExprId Parser::list() {
   const std::uint32_t first = at_;
   Pending elements(pending_);
+  ExprId comprehension;
+  const int errors = diagnostics_.error_count();
   std::uint32_t tallest = 0;
   const bool good = comma_list(TokenKind::right_bracket, [&] {
     if (elements.size() == max_list_length) {
@@ -197,8 +247,16 @@ ExprId Parser::list() {
     const ExprId element = expression();
     elements.add(element);
     tallest = std::max(tallest, height(element));
+    if (at(TokenKind::kw_for) && elements.size() == 1) comprehension = each(element, first);
   });
   if (!good) return add(first, ErrorExpr{});
+  if (comprehension.valid()) {
+    if (elements.size() == 1) return comprehension;
+    if (diagnostics_.error_count() == errors)
+      note_mistake(span_from(first), "a list has either one 'for' or entries one by one",
+                   "join two lists: [a, b] + [i * i for i in 0..<10]");
+    return add(first, ErrorExpr{});
+  }
   return add(first, ListExpr{append_exprs(elements.all())}, 1 + tallest);
 }
 

@@ -11,11 +11,14 @@
 
 namespace tyndall::syntax {
 
-// Words and marks of one source: what is made of them takes some hundred bytes each.
-inline constexpr std::size_t max_tokens = std::size_t{1} << 25;
+// Words, marks and comments of one source: what is made of them takes some hundred bytes each. A mesh of some
+// four million numbers is read.
+inline constexpr std::size_t max_tokens = 12'000'000;
+// Strings of one source, and pieces of strings between values.
+inline constexpr std::size_t max_strings = 1'000'000;
 
 // Reads the words of a source. Always ends with end_of_file; problems are reported and lexing goes on, up to
-// `most` tokens.
+// `most` tokens: of more, none is given.
 TokenList lex(const Sources& sources, SourceId source, Diagnostics& diagnostics,
               std::size_t most = max_tokens);
 

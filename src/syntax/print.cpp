@@ -107,6 +107,8 @@ class TreePrinter {
     for (std::size_t i = 0; i < s.pieces.size(); ++i) {
       word(quoted(s.pieces[i]));
       if (i < s.values.size()) value(s.values[i]);
+      if (i < s.formats.size() && s.formats[i].width > 0) put(fmt::format(":0{}", s.formats[i].width));
+      if (i < s.formats.size() && s.formats[i].decimals) put(fmt::format(":.{}", *s.formats[i].decimals));
     }
     put(")");
   }
@@ -133,14 +135,17 @@ class TreePrinter {
   void expr(const CallExpr& e) {
     put("(call");
     value(e.callee);
-    for (const Argument& a : tree_.list_of_arguments(e.arguments)) {
+    arguments(e.arguments);
+    put(")");
+  }
+  void arguments(ListRef list) {
+    for (const Argument& a : tree_.list_of_arguments(list)) {
       if (a.name.symbol.valid()) {
         name(a.name);
         put(":");
       }
       value(a.value);
     }
-    put(")");
   }
   void expr(const IndexExpr& e) {
     put("(index");
@@ -162,6 +167,22 @@ class TreePrinter {
   void expr(const ListExpr& e) {
     put("(list");
     values(e.elements);
+    put(")");
+  }
+  void expr(const ComprehensionExpr& node) {
+    const Comprehension& e = tree_.comprehensions[node.comprehension];
+    put(e.nests ? "(each of" : "(each");
+    name(e.name);
+    value(e.over);
+    optional_value(e.condition);
+    value(e.element);
+    put(")");
+  }
+  void expr(const WithEntryExpr& e) {
+    put("(with_entry");
+    value(e.list);
+    value(e.index);
+    value(e.entry);
     put(")");
   }
   void expr(const RangeExpr& e) {
@@ -206,11 +227,13 @@ class TreePrinter {
   void item(const ObjectItem& i) {
     put("object");
     name(i.name);
+    if (i.parameters.count > 0) parameters(i.parameters);
     block(i.body);
   }
   void item(const PlaceItem& i) {
     put("place");
     name(i.name);
+    arguments(i.arguments);
     block(i.block);
   }
   void item(const IncludeItem& i) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "base/flood.h"
 #include "syntax/recursive_parser.h"
 
 namespace tyndall::syntax {
@@ -25,13 +26,19 @@ void Parser::note_mistake(const Span& span, std::string message, std::string hel
                        std::string(around->help));
   else
     diagnostics_.error(span, std::move(message), std::move(help), std::move(notes));
+  if (flooded(diagnostics_)) give_up();
+}
+
+// The rest of the file is not read.
+void Parser::give_up() {
+  gave_up_ = true;
+  at_ = static_cast<std::uint32_t>(tokens_.tokens.size() - 1);
 }
 
 void Parser::too_deep(const Span& span) {
   fail(span, fmt::format("nested too deeply: at most {} levels are read", max_nesting),
        "give parts names with 'let', or repeat with 'for'");
-  gave_up_ = true;
-  at_ = static_cast<std::uint32_t>(tokens_.tokens.size() - 1);
+  give_up();
 }
 
 // One level deeper; false, and an error, when that is too deep.
@@ -88,10 +95,16 @@ void Parser::skip_group() {
   } while (!closers.empty());
 }
 
-// After an error in the item that began at `first_token`: goes to the next item, or the `}` of the block.
+// After an error in the item that began at `first_token`: goes to the next item, or the `}` of the block. A
+// word at the beginning of a line that is not further in than the item's is one, whatever it is.
 void Parser::synchronize(std::uint32_t first_token) {
+  const std::size_t margin = diagnostics_.full() ? 0 : indentation(tokens_.tokens[first_token].span);
+  const auto begins_line = [&] {
+    return !diagnostics_.full() && is_word(kind()) && first_on_line(at_) &&
+           indentation(peek().span) <= margin;
+  };
   while (!ends_everything() && !at(TokenKind::right_brace)) {
-    if (at_ > first_token && begins_item(at_)) break;
+    if (at_ > first_token && (begins_item(at_) || begins_line())) break;
     skip_group();
   }
   panic_ = false;

@@ -72,15 +72,33 @@ class Parser {
   std::optional<Name> new_name(std::string_view what);
   ExprId defined_value(const Name& name);
   ExprId header_value();
+  std::optional<Name> name_of_rounds(const std::string& help);
 
   // parse_mistakes.cpp
   std::optional<ItemNode> not_an_item();
+  void part_of_a_word(const std::string& owner);
+  bool no_value_defined(const Name& name);
   bool value_without_colon() const;
   ItemNode parameter_without_colon(const Name& name);
   bool begins_body() const;
   std::optional<ItemNode> include_without_quotes();
   // parse_habits.cpp: what POV-Ray and Python users write
   bool skip_directive();
+  ExprId value_before_error();
+  bool word_for_operator(ExprId& left);
+  bool values_side_by_side(ItemId item);
+  bool second_definition(ItemId item);
+  bool is_comment_of_others() const;
+  bool ends_line_alone(const Name& keyword) const;
+  std::optional<Name> name_without_type(std::optional<Name> name);
+  void skip_type();
+  // `light point {` on a new line is a statement, however much a value is wanted.
+  bool begins_next_statement() const {
+    return kind(1) == TokenKind::name && kind(2) == TokenKind::left_brace && first_on_line(at_) &&
+           (text(peek()) == "light" || text(peek()) == "camera");
+  }
+  std::optional<ItemNode> lone_word(const Name& keyword, bool alone);
+  bool letter_before_string(const Name& name) const;
   void skip_line();
   bool gives_value(BlockId block) const;
   BlockId indented_block(BlockPlace place, std::string_view owner);
@@ -88,7 +106,7 @@ class Parser {
   bool begins_thing() const;
   Unit parted_unit(const Token& number, double& value);
   bool vector_word(const Name& name) const;
-  PlaceItem placed_without_braces(const Name& name);
+  PlaceItem placed_without_braces(const Name& name, ListRef arguments);
   struct ForeignStatement {
     Span place;
     std::string_view word, help;
@@ -115,6 +133,10 @@ class Parser {
   ExprId tuple_or_group();
   ExprId angle_bracket_vector();
   ExprId list();
+  ExprId each(ExprId element, std::uint32_t first_token);
+  bool sets_entry() const;
+  std::optional<ItemNode> assign_entry();
+  NumberFormat number_format();
   ExprId call(ExprId callee, std::uint32_t first_token);
   ExprId index(ExprId object, std::uint32_t first_token);
   ExprId member(ExprId object, std::uint32_t first_token);
@@ -142,6 +164,7 @@ class Parser {
             std::vector<Diagnostic::Note> notes = {});
   void note_mistake(const Span& span, std::string message, std::string help = {},
                     std::vector<Diagnostic::Note> notes = {});
+  void give_up();
   void too_deep(const Span& span);
   bool enter();
   void leave() { --depth_; }
@@ -222,7 +245,7 @@ class Parser {
   std::uint32_t braces_of_no_body_ = 0xffffffffu;
   // Set by the first error of an item, cleared where reading goes on: what follows an error is not reported.
   bool panic_ = false;
-  bool gave_up_ = false;           // nested too deeply: the rest of the file is not read
+  bool gave_up_ = false;           // nested too deeply, or too many errors: the rest of the file is not read
   bool brace_opens_body_ = false;  // in the header of `if` and `for`
   BlockPlace place_ = BlockPlace::file;
   Span doubtful_brace_;  // the first `{` whose `}` stands further left than its line

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -104,6 +105,12 @@ struct TupleExpr {
 struct ListExpr {
   ListRef elements;
 };  // [a, b]: SyntaxTree::expr_list
+struct ComprehensionExpr {
+  std::uint32_t comprehension;
+};  // SyntaxTree::comprehensions
+struct WithEntryExpr {
+  ExprId list, index, entry;
+};  // the list with another entry: what `l[i] = x` sets l to
 struct RangeExpr {
   ExprId first, last, step;
   bool excludes_last;
@@ -124,7 +131,8 @@ struct Argument {
 struct Expr {
   Span span;
   std::variant<ErrorExpr, NumberExpr, ColorExpr, BoolExpr, StringExpr, NameExpr, UnaryExpr, BinaryExpr,
-               ConditionalExpr, CallExpr, IndexExpr, MemberExpr, TupleExpr, ListExpr, RangeExpr, ThingExpr>
+               ConditionalExpr, CallExpr, IndexExpr, MemberExpr, TupleExpr, ListExpr, ComprehensionExpr,
+               WithEntryExpr, RangeExpr, ThingExpr>
       node;
 };
 static_assert(sizeof(Expr) <= 48);  // long lists of numbers are many expressions
@@ -170,12 +178,14 @@ struct BodyItem {
 };  // medium f(p) { … }
 struct ObjectItem {
   Name name;
+  ListRef parameters;
   BlockId body;
-};  // object a { … }
+};  // object a { … }, object a(x) { … }
 struct PlaceItem {
   Name name;
+  ListRef arguments;
   BlockId block;
-};  // place a { … }; block always valid
+};  // place a { … }, place a(x: 1) { … }; block always valid
 struct IncludeItem {
   ExprId file;
 };
@@ -220,10 +230,27 @@ struct Block {
   ListRef items;  // SyntaxTree::item_list
 };
 
-// A string with its interpolated expressions: pieces.size() == values.size() + 1.
+// How a number is written into a string: "{x:06.2}".
+struct NumberFormat {
+  std::uint8_t width = 0;                // with zeros in front up to so many characters
+  std::optional<std::uint8_t> decimals;  // as many as it has, if not given
+
+  bool given() const { return width > 0 || decimals.has_value(); }
+};
+
+// A string with its interpolated expressions: pieces.size() == values.size() + 1 == formats.size() + 1.
 struct StringValue {
   std::vector<std::string> pieces;
   std::vector<ExprId> values;
+  std::vector<NumberFormat> formats;
+};
+
+// [element for name in over if condition]; `condition` may be invalid. A further `for` makes the element
+// another one, whose entries stand in this one's list.
+struct Comprehension {
+  Name name;
+  ExprId over, condition, element;
+  bool nests;
 };
 
 // Names to small numbers and back. One table serves a whole run, so symbols compare across files.
@@ -247,6 +274,7 @@ struct SyntaxTree {
   std::vector<Parameter> parameters;
   std::vector<ItemId> item_list;
   std::vector<StringValue> strings;
+  std::vector<Comprehension> comprehensions;
   BlockId file;  // the whole file
   // Definitions of which no more than the name could be read, and whether reading was given up: told already.
   std::vector<SymbolId> unread_definitions;

@@ -46,15 +46,17 @@ ExitStatus run_check(const CheckArguments& arguments) {
   return good ? ExitStatus::done : ExitStatus::problem;
 }
 
+Action check_options(CLI::App& command) {
+  const auto arguments = std::make_shared<CheckArguments>();
+  command.add_option("scenes", arguments->scenes, "The scenes to check")->required()->option_text("SCENE");
+  add_scene_options(command, arguments->request);
+  command.add_flag("--json", arguments->json, "Print the problems as JSON on standard output");
+  return [arguments] { return run_check(*arguments); };
+}
+
 }  // namespace
 
-void add_check_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("check", "Look for every problem in scenes, without rendering");
-  const auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("scenes", arguments->scenes, "The scenes to check")->required()->option_text("SCENE");
-  add_scene_options(*command, arguments->request);
-  command->add_flag("--json", arguments->json, "Print the problems as JSON on standard output");
-  command->callback([arguments, &action] { action = [arguments] { return run_check(*arguments); }; });
-}
+constinit const Command check_command{"check", "Look for every problem in scenes, without rendering",
+                                      check_options};
 
 }  // namespace tyndall::tools

@@ -1,7 +1,8 @@
-// The command line as a whole: the list of commands, --version, misuse.
+// The command line as a whole: all commands, --version, misuse.
 #include "tools/commands.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "tools/interrupt.h"
@@ -21,12 +22,17 @@ ExitStatus run(int argc, char** argv) {
   program.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
   Action action;
-  add_render_command(program, action);
-  add_check_command(program, action);
-  add_format_command(program, action);
-  add_inspect_command(program, action);
-  add_compare_command(program, action);
+  for (const Command* row : commands) {
+    CLI::App* command = program.add_subcommand(std::string(row->name), std::string(row->help));
+    command->callback([&action, run = row->add_options(*command)] { action = run; });
+  }
+  refuse_empty_values(program);
 
+  const std::string misjoined = misjoined_value({argv + 1, argv + std::max(argc, 1)});
+  if (!misjoined.empty()) {
+    print_error(misjoined);
+    return ExitStatus::misuse;
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& request) {

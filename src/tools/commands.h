@@ -1,7 +1,8 @@
-// The commands of the program, one file each.
+// The commands of the program, one file each: NAME_command.cpp, with its row.
 #pragma once
 
 #include <functional>
+#include <string_view>
 
 #include "tools/exit_status.h"
 
@@ -11,17 +12,24 @@ class App;
 
 namespace tyndall::tools {
 
-// Reads the command line and does what it says.
-ExitStatus run(int argc, char** argv);
-
-// What the chosen command does once the whole command line is read.
+// What a command does once the whole command line is read.
 using Action = std::function<ExitStatus()>;
 
-// Each adds one subcommand to the program; when the user chose it, parsing sets `action`.
-void add_render_command(CLI::App& program, Action& action);
-void add_check_command(CLI::App& program, Action& action);
-void add_format_command(CLI::App& program, Action& action);
-void add_inspect_command(CLI::App& program, Action& action);
-void add_compare_command(CLI::App& program, Action& action);
+struct Command {
+  std::string_view name;
+  std::string_view help;                     // in one line
+  Action (*add_options)(CLI::App& command);  // gives what is done with their values
+};
+
+extern const Command render_command, develop_command, merge_command, plan_command, sheet_command,
+    check_command, format_command, inspect_command, compare_command, golden_command, measure_command,
+    help_command;
+// All of them, in the order of the help.
+inline constexpr const Command* commands[] = {
+    &render_command,  &develop_command, &merge_command,  &plan_command,    &check_command, &format_command,
+    &inspect_command, &compare_command, &golden_command, &measure_command, &sheet_command, &help_command};
+
+// Reads the command line and does what it says.
+ExitStatus run(int argc, char** argv);
 
 }  // namespace tyndall::tools

@@ -2,77 +2,163 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 
-#include "image/compare.h"
+#include "image/false_colors.h"
+#include "image/flip.h"
 #include "image/image.h"
 #include "tools/commands.h"
+#include "tools/comparison.h"
+#include "tools/files_in_use.h"
+#include "tools/memory.h"
 #include "tools/numbers.h"
 #include "tools/report.h"
 
 namespace tyndall::tools {
 namespace {
 
+using image::Image;
+
+const std::vector<std::string_view> metrics{"relmse", "mse", "flip", "ldr-flip", "hdr-flip", "outliers"};
+const std::vector<std::string_view> maps{"flip", "ldr-flip", "hdr-flip", "relative"};
+
 struct CompareArguments {
-  std::string picture, reference, metric = "relmse";
-  std::optional<double> max;
+  std::string picture, reference, metric, map, map_of = "flip";
+  std::optional<double> max, significance;
+  std::optional<double> pixels_per_degree;
   bool json = false;
+
+  bool wants_flip() const { return metric.empty() || metric.find("flip") != std::string::npos; }
+  double resolution() const { return pixels_per_degree.value_or(image::flip_pixels_per_degree); }
 };
 
-std::string shape_text(const image::Image& image) {
-  return fmt::format("{}x{} with channels {}", image.width, image.height, fmt::join(image.channels, " "));
+std::string map_problem(const CompareArguments& arguments) {
+  if (arguments.map.empty()) return {};
+  FilesInUse files;
+  for (const std::string& path : {arguments.picture, arguments.reference})
+    if (std::string problem = files.read(path, "the picture"); !problem.empty()) return problem;
+  if (std::string problem = image::check_writable(arguments.map); !problem.empty()) return problem;
+  return files.write(arguments.map, "--map");
 }
 
-ExitStatus run_compare(const CompareArguments& arguments) {
-  const image::ReadResult picture = image::read(arguments.picture),
-                          reference = image::read(arguments.reference);
-  for (const image::ReadResult* read : {&picture, &reference})
-    if (!read->image) print_error(read->error);
-  if (!picture.image || !reference.image) return ExitStatus::problem;
-  if (shape_text(*picture.image) != shape_text(*reference.image)) {
-    print_error(fmt::format("the pictures cannot be compared: '{}' is {}, '{}' is {}", arguments.picture,
-                            shape_text(*picture.image), arguments.reference, shape_text(*reference.image)));
-    return ExitStatus::problem;
-  }
+double mean_error(const Image& errors) {
+  return std::accumulate(errors.pixels.begin(), errors.pixels.end(), 0.0) /
+         std::max(static_cast<double>(errors.pixels.size()), 1.0);
+}
 
-  const image::Comparison comparison = image::compare(*picture.image, *reference.image);
-  const bool close = !arguments.max || comparison.relative_mse <= *arguments.max;
-  if (arguments.json) {
-    print_json({{"relmse", comparison.relative_mse},
-                {"max_difference", comparison.max_difference},
-                {"mean", comparison.mean},
-                {"reference_mean", comparison.reference_mean},
-                {"not_finite", comparison.not_finite},
-                {"passed", close}});
-  } else {
-    print_result(fmt::format("relmse {:.6g}\nmax difference {:.6g}\nmean {:.6g}\nreference mean {:.6g}\n",
-                             comparison.relative_mse, comparison.max_difference, comparison.mean,
-                             comparison.reference_mean));
-    if (comparison.not_finite > 0) print_result(fmt::format("values not finite {}\n", comparison.not_finite));
+// An .exr gets the errors themselves.
+std::string write_map(const CompareArguments& arguments, const Image& errors) {
+  const bool keeps_numbers = arguments.map.ends_with(".exr");
+  return image::write(arguments.map, keeps_numbers ? errors : image::in_false_colors(errors),
+                      {{"Software", "Tyndall " TYNDALL_VERSION}});
+}
+
+// Finds what is to be told, and writes the map; a message, or an empty string.
+std::string measure(const CompareArguments& arguments, const PicturePair& pair, ComparisonResult& result) {
+  result = compare_pair(pair);
+  const std::string metric = arguments.metric.empty() ? "flip" : arguments.metric;
+  std::optional<Image> errors;
+  if (arguments.wants_flip() && result.main.not_finite == 0) {
+    errors = errors_of(metric, pair, arguments.resolution());
+    result.flip = mean_error(*errors);
+    result.flip_kind = flip_kind(metric, pair);
   }
-  if (!close)
-    print_error(fmt::format("{} {:.6g} is not at most {:.6g}", arguments.metric, comparison.relative_mse,
-                            *arguments.max));
+  if (arguments.map.empty()) return {};
+  if (!errors || flip_kind(metric, pair) != flip_kind(arguments.map_of, pair))
+    errors = errors_of(arguments.map_of, pair, arguments.resolution());
+  return write_map(arguments, *errors);
+}
+
+double value_of(std::string_view metric, const ComparisonResult& result) {
+  if (metric == "mse") return result.main.mse;
+  if (metric == "outliers") return result.outliers;
+  if (metric == "relmse") return result.main.relative_mse;
+  return result.flip.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+// Whether the pictures are as close as is asked for; tells what is not.
+bool is_close(const CompareArguments& arguments, const PicturePair& pair, const ComparisonResult& result) {
+  bool close = true;
+  const std::string metric = arguments.metric.empty() ? "relmse" : arguments.metric;
+  if (const double value = value_of(metric, result); arguments.max && !(value <= *arguments.max)) {
+    print_error(fmt::format("{} {:.6g} is not at most {:.6g}", metric, value, *arguments.max));
+    close = false;
+  }
+  if (!arguments.significance) return close;
+  const bool agrees =
+      result.z_test && result.z_test->pixels_agree() && result.z_test->means_agree(*arguments.significance);
+  if (!agrees)
+    print_error(result.z_test ? fmt::format("the z-test tells the pictures apart: {}",
+                                            describe(*result.z_test, pair.picture))
+                              : "the z-test has nothing to go by where values are not finite");
+  return close && agrees;
+}
+
+ExitStatus fail_to_compare(const std::string& message) { return print_error(message), ExitStatus::problem; }
+
+ExitStatus run_compare(const CompareArguments& arguments) {
+  if (arguments.significance && *arguments.significance >= 1)
+    return misuse("--significance wants a number above 0 and below 1, for instance 0.001");
+  if (const std::string problem = map_problem(arguments); !problem.empty()) return fail_to_compare(problem);
+  const std::optional<PicturePair> pair = read_pair(arguments.picture, arguments.reference);
+  if (!pair) return ExitStatus::problem;
+  ComparisonResult result;
+  if (const std::string problem =
+          with_memory("to compare the pictures", [&] { return measure(arguments, *pair, result); });
+      !problem.empty())
+    return fail_to_compare(problem);
+  if (arguments.significance && !result.z_test && result.main.not_finite == 0)
+    return fail_to_compare(
+        "--significance wants the variance of R, G and B in one of the pictures at least: render with "
+        "--aov variance");
+  const bool close = is_close(arguments, *pair, result);
+  if (arguments.json) {
+    nlohmann::json json = to_json(result);
+    json["passed"] = close;
+    print_json(json);
+  } else {
+    print_result(to_text(result, *pair));
+  }
   return close ? ExitStatus::done : ExitStatus::test_failed;
+}
+
+void add_name(CLI::App& command, const char* option, std::string& target, const std::string& help,
+              const std::vector<std::string_view>& names) {
+  std::string form;
+  for (const std::string_view name : names) form += fmt::format("{}{}", form.empty() ? "" : "|", name);
+  command.add_option(option, target, help)
+      ->check([&names](const std::string& text) { return name_problem(names, text); })
+      ->option_text(form);
+}
+
+Action compare_options(CLI::App& command) {
+  const auto arguments = std::make_shared<CompareArguments>();
+  command.add_option("picture", arguments->picture, "The picture")->required()->option_text("A");
+  command.add_option("reference", arguments->reference, "The picture that is taken as true")
+      ->required()
+      ->option_text("B");
+  add_name(command, "--metric", arguments->metric, "What --max limits (default: relmse)", metrics);
+  add_real(command, "--max", arguments->max, "Fail, with exit status 3, when the metric is greater");
+  add_real(command, "--significance", arguments->significance,
+           "Fail, with exit status 3, when a z-test tells the pictures apart at this significance");
+  command
+      .add_option("--map", arguments->map,
+                  "Write a picture of the errors in false colours; an .exr gets the errors themselves")
+      ->option_text("OUT");
+  add_name(command, "--map-of", arguments->map_of, "Which errors --map shows (default: flip)", maps);
+  add_real(command, "--pixels-per-degree", arguments->pixels_per_degree,
+           "Pixels per degree of what the eye sees, for FLIP (default: 67)");
+  command.add_flag("--json", arguments->json, "Print the numbers as JSON on standard output");
+  return [arguments] { return run_compare(*arguments); };
 }
 
 }  // namespace
 
-void add_compare_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("compare", "Tell how far a picture is from a reference");
-  const auto arguments = std::make_shared<CompareArguments>();
-  command->add_option("picture", arguments->picture, "The picture")->required()->option_text("A");
-  command->add_option("reference", arguments->reference, "The picture that is taken as true")
-      ->required()
-      ->option_text("B");
-  command->add_option("--metric", arguments->metric, "What --max limits (default: relmse)")
-      ->check(CLI::IsMember({"relmse"}))
-      ->option_text("relmse");
-  add_real(*command, "--max", arguments->max, "Fail, with exit status 3, when the metric is greater");
-  command->add_flag("--json", arguments->json, "Print the numbers as JSON on standard output");
-  command->callback([arguments, &action] { action = [arguments] { return run_compare(*arguments); }; });
-}
+constinit const Command compare_command{"compare", "Tell how far a picture is from a reference",
+                                        compare_options};
 
 }  // namespace tyndall::tools

@@ -71,14 +71,15 @@ ExitStatus run_format(const FormatArguments& arguments) {
   return good ? ExitStatus::done : ExitStatus::problem;
 }
 
+Action format_options(CLI::App& command) {
+  const auto arguments = std::make_shared<FormatArguments>();
+  command.add_option("scenes", arguments->scenes, "The scenes to format")->required()->option_text("SCENE");
+  command.add_flag("--check", arguments->check, "Change nothing; name the files that would change");
+  return [arguments] { return run_format(*arguments); };
+}
+
 }  // namespace
 
-void add_format_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("format", "Give scene files the canonical layout");
-  const auto arguments = std::make_shared<FormatArguments>();
-  command->add_option("scenes", arguments->scenes, "The scenes to format")->required()->option_text("SCENE");
-  command->add_flag("--check", arguments->check, "Change nothing; name the files that would change");
-  command->callback([arguments, &action] { action = [arguments] { return run_format(*arguments); }; });
-}
+constinit const Command format_command{"format", "Give scene files the canonical layout", format_options};
 
 }  // namespace tyndall::tools

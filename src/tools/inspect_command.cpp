@@ -1,5 +1,6 @@
 // `tyndall inspect`: what a scene became at a stage on its way to the renderer.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -7,13 +8,17 @@
 #include <string_view>
 
 #include "compile/compiled_scene.h"
-#include "render/emission_field.h"
 #include "tools/commands.h"
+#include "tools/inspect_gltf.h"
+#include "tools/inspect_grids.h"
+#include "tools/inspect_picture.h"
 #include "tools/load.h"
 #include "tools/look.h"
 #include "tools/medium_features.h"
+#include "tools/numbers.h"
 #include "tools/report.h"
-#include "vm/program.h"
+#include "tools/scene_features.h"
+#include "vm/program/program.h"
 
 namespace tyndall::tools {
 namespace {
@@ -38,22 +43,9 @@ std::string_view yes_no(bool value) { return value ? "yes" : "no"; }
 
 std::string features_text(LoadedScene& loaded) {
   const compile::CompiledScene world = compile::compile(std::move(loaded.scene));
-  const compile::Features& features = world.features;
-  const std::pair<std::string_view, bool> list[] = {
-      {"volumes", features.volumes},
-      {"surfaces", features.surfaces},
-      {"overlapping volumes", features.overlap},
-      {"motion while the shutter is open", features.motion},
-      {"media that vary in space", features.heterogeneous},
-      {"extinction that differs in colour", features.chromatic},
-      {"media that emit", features.medium_emission},
-      {"media sampled as lights", features.medium_emission && render::EmissionField::of(world) != nullptr},
-      {"lights without size", features.delta_lights},
-      {"lights with size", features.area_lights},
-      {"environment", features.environment},
-  };
   std::string text;
-  for (const auto& [name, used] : list) text += fmt::format("{:<36}{}\n", name, yes_no(used));
+  for (const auto& [name, used] : scene_features(world))
+    text += fmt::format("{:<36}{}\n", name, yes_no(used));
   text += medium_features(world);
   return text;
 }
@@ -74,9 +66,18 @@ struct InspectArguments {
   SceneRequest request;
   std::string stage = "scene";
   LookArguments look;
+  bool json = false;
 };
 
 ExitStatus run_inspect(const InspectArguments& arguments) {
+  const std::string& path = arguments.request.path;
+  if (is_gltf(path)) return inspect_gltf(path, arguments.json);
+  if (is_grid_file(path)) return inspect_grids(path, arguments.json);
+  if (is_picture(path)) return inspect_picture(path, arguments.json);
+  if (arguments.json) {
+    print_error("--json is for .glb, .gltf and .vdb files and pictures: a scene is printed as text");
+    return ExitStatus::misuse;
+  }
   if (arguments.look.wanted()) return look(arguments.request, arguments.look);
   const StagePrinter& stage =
       *std::find_if(std::begin(stages), std::end(stages),
@@ -88,22 +89,26 @@ ExitStatus run_inspect(const InspectArguments& arguments) {
   return good ? ExitStatus::done : ExitStatus::problem;
 }
 
-}  // namespace
-
-void add_inspect_command(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("inspect", "Print what a scene became at a stage of its way");
+Action inspect_options(CLI::App& command) {
   const auto arguments = std::make_shared<InspectArguments>();
-  command->add_option("scene", arguments->request.path, "The scene to look into")
+  command
+      .add_option("scene", arguments->request.path, "The scene, picture, glTF or OpenVDB file to look into")
       ->required()
       ->option_text("SCENE");
-  add_scene_options(*command, arguments->request);
-  std::vector<std::string> names;
-  for (const StagePrinter& stage : stages) names.emplace_back(stage.name);
-  command->add_option("--stage", arguments->stage, "What to print (default: scene)")
-      ->check(CLI::IsMember(names))
-      ->option_text("tokens|tree|scene|bytecode|features");
-  add_look_options(*command, arguments->look);
-  command->callback([arguments, &action] { action = [arguments] { return run_inspect(*arguments); }; });
+  add_scene_options(command, arguments->request);
+  std::vector<std::string_view> names;
+  for (const StagePrinter& stage : stages) names.push_back(stage.name);
+  command.add_option("--stage", arguments->stage, "What to print (default: scene)")
+      ->check([names](const std::string& text) { return name_problem(names, text); })
+      ->option_text(fmt::format("{}", fmt::join(names, "|")));
+  command.add_flag("--json", arguments->json, "Print what a picture, glTF or OpenVDB file holds as JSON");
+  add_look_options(command, arguments->look);
+  return [arguments] { return run_inspect(*arguments); };
 }
+
+}  // namespace
+
+constinit const Command inspect_command{"inspect", "Print what a scene became at a stage of its way",
+                                        inspect_options};
 
 }  // namespace tyndall::tools

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include "image/files.h"
-#include "tools/exit_status.h"
 
 namespace tyndall::tools {
 namespace {
@@ -17,7 +16,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only
 extern "C" void on_ending_signal(int signal) {
   if (saves && !interrupted.exchange(true)) return;
   image::remove_unfinished_file();
-  if (saves) ::_exit(static_cast<int>(ExitStatus::interrupted));
+  if (saves) ::_exit(128 + signal);  // as a shell tells it of a process that the signal ended
   ::signal(signal, SIG_DFL);
   ::raise(signal);
 }

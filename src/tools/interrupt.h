@@ -11,7 +11,7 @@ namespace tyndall::tools {
 void clean_up_at_signals();
 
 // From now on the first one sets the returned flag, so that what there is can be saved; the second one ends
-// the process with status 130.
+// the process with status 128 + its number.
 const std::atomic<bool>& catch_interrupts();
 
 }  // namespace tyndall::tools

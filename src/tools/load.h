@@ -2,6 +2,7 @@
 // stage.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -11,6 +12,8 @@
 
 #include "base/diagnostics.h"
 #include "base/source.h"
+#include "resolve/kept.h"
+#include "resolve/resolve.h"
 #include "scene/scene.h"
 #include "syntax/parser.h"
 #include "syntax/token.h"
@@ -29,9 +32,14 @@ struct SceneRequest {
   std::vector<std::pair<std::string, std::string>> overrides;  // --set NAME=EXPR
   std::vector<std::string> include_directories;
   bool allow_outside = false;  // files outside of the folders of the scene and of --include
+  std::uint64_t texture_memory = resolve::Options{}.texture_memory;
   bool keep_text = false;
   bool may_only_define = false;  // a file of definitions for other scenes is good
-  std::string watch;             // a name of media's bodies whose value is wanted as well (scene::Watched)
+  bool warns_of_frame = true;    // outside of `animation`'s
+  // As of resolve::Options.
+  std::function<void(scene::RenderSettings&)> amend_settings;
+  bool strict = false;
+  std::string watch;  // a name of media's bodies whose value is wanted as well (scene::Watched)
 };
 
 // Adds --frame, --set and --include to a command.
@@ -43,12 +51,15 @@ enum class Stage : std::uint8_t { tokens, tree, scene };
 struct LoadedScene {
   Sources sources;
   syntax::Symbols symbols;
-  Diagnostics diagnostics;
-  std::string text;  // the file as it is, where that is asked for
+  Diagnostics of_text;      // of the file's words and tree
+  Diagnostics diagnostics;  // those and the scene's
+  std::string text;         // the file as it is, where that is asked for
   SourceId source;
   syntax::TokenList tokens;
   syntax::SyntaxTree tree;
   std::set<std::string> files_read;  // includes and pictures
+  resolve::AssetBytes assets;        // what is kept of them
+  resolve::Kept kept;                // for other frames
   scene::Scene scene;                // fit for use only when the diagnostics have no errors
   struct Seconds {
     double read = 0, parse = 0, resolve = 0;
@@ -57,5 +68,9 @@ struct LoadedScene {
 
 // Reads the scene through the stages up to `last`; problems are in its diagnostics.
 std::unique_ptr<LoadedScene> load(const SceneRequest& request, Stage last = Stage::scene);
+// The last stage alone, of what was loaded up to the tree, for as many frames as are wanted: the scene, its
+// diagnostics, files and assets take the place of those of the frame before.
+enum class Keeps : bool { nothing, for_other_frames };
+void load_scene(const SceneRequest& request, LoadedScene& loaded, Keeps keeps = Keeps::nothing);
 
 }  // namespace tyndall::tools

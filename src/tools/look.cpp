@@ -9,14 +9,14 @@
 #include <unordered_map>
 
 #include "compile/compiled_scene.h"
-#include "compile/geometry.h"
+#include "compile/geometry/geometry.h"
 #include "image/image.h"
 #include "tools/files_in_use.h"
 #include "tools/numbers.h"
 #include "tools/profile.h"
 #include "tools/report.h"
 #include "tools/slice.h"
-#include "vm/machine.h"
+#include "vm/run/machine.h"
 
 namespace tyndall::tools {
 namespace {
@@ -26,10 +26,6 @@ constexpr int slice_size = 480;
 // Points along each side of a volume's box that a profile is taken at.
 constexpr int profile_points = 32;
 
-ExitStatus misuse(const std::string& message) {
-  print_error(message);
-  return ExitStatus::misuse;
-}
 ExitStatus fail(const std::string& message) {
   print_error(message);
   return ExitStatus::problem;
@@ -107,8 +103,10 @@ std::vector<std::string> quoted(const std::vector<std::string>& names) {
 // "there is none" with what there is.
 std::string none_named(std::string_view what, const std::string& name,
                        const std::vector<std::string>& names) {
-  return fmt::format("no {} '{}' here: there is {}", what, name,
-                     names.empty() ? "none" : fmt::format("{}", fmt::join(quoted(names), ", ")));
+  const std::string meant = did_you_mean(name, {names.begin(), names.end()});
+  return fmt::format("no {} '{}' here: there is {}{}{}", what, name,
+                     names.empty() ? "none" : fmt::format("{}", fmt::join(quoted(names), ", ")),
+                     meant.empty() ? "" : "; ", meant);
 }
 
 ExitStatus show_slice(const LookArguments& arguments, LoadedScene& loaded) {
@@ -239,7 +237,7 @@ ExitStatus look(const SceneRequest& request, const LookArguments& arguments) {
     if (arguments.slice.empty()) return misuse("this wants a plane to look at: --slice z=0");
     if (!parse_slice(arguments.slice))
       return misuse(
-          fmt::format("--slice wants {}, not '{}'", wanted(real_option("--slice")), arguments.slice));
+          fmt::format("--slice wants {}, not '{}'", real_option("--slice").wanted, arguments.slice));
     if (arguments.output.empty()) return misuse("--slice wants the picture to write: -o slice.png");
     files.read(request.path, "the scene");
     std::string problem = image::check_writable(arguments.output);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "compile/grid_summary.h"
+#include "compile/majorant/grid_summary.h"
 
 namespace tyndall::tools {
 namespace {
@@ -44,7 +44,7 @@ std::string medium_features(const compile::CompiledScene& world) {
   std::vector<compile::GridSummary> summaries(world.grids.size());
   parallel_for(world.grids.size(), 0, [&](std::size_t i, int) { summaries[i] = summarize(*world.grids[i]); });
   std::string text;
-  for (const scene::Medium& medium : world.scene.media) {
+  for (const compile::CompiledMedium& medium : world.media) {
     text += fmt::format("medium {}: {}{}\n", medium.name,
                         medium.homogeneous() ? "the same everywhere" : "varies in space",
                         medium.full.reads(vm::Input::time) ? ", changes with time" : "");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "tools/numbers.h"
 
 namespace tyndall::tools {
 namespace {
@@ -59,7 +60,37 @@ std::string help_line(const CLI::App& program, const CLI::App& command) {
   return fmt::format("\ntyndall {}--help tells more", &command == &program ? "" : command.get_name() + " ");
 }
 
+// What is written for people on an option's value, "FILE.json"; the option is named as the parser names it.
+std::string value_missing(const CLI::App& command, const std::string& name) {
+  const CLI::Option* option = command.get_option_no_throw(name);
+  const std::string form = option == nullptr ? std::string{} : option->get_option_text();
+  return fmt::format("{} wants a value{}", name, form.empty() ? form : fmt::format(": {} {}", name, form));
+}
+
 }  // namespace
+
+void refuse_empty_values(CLI::App& program) {
+  for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_items_expected_max() == 0) continue;
+      option->check([name = option->get_name()](const std::string& value) {
+        return value.empty() ? fmt::format("wants {}, not ''", wanted_by(name)) : std::string{};
+      });
+    }
+}
+
+std::string misjoined_value(std::span<char* const> arguments) {
+  for (const std::string_view argument : arguments) {
+    if (argument == "--") break;
+    if (argument.size() > 3 && argument.starts_with("--") && argument.find('=') == argument.size() - 1)
+      return fmt::format("{} wants a value, found nothing after its '='",
+                         argument.substr(0, argument.size() - 1));
+    if (argument.size() > 2 && argument[0] == '-' && argument[1] != '-' && argument[2] == '=')
+      return fmt::format("a short option takes its value without '=': {} {}", argument.substr(0, 2),
+                         argument.size() > 3 ? argument.substr(3) : "…");
+  }
+  return {};
+}
 
 std::string explain_misuse(const CLI::App& program, const CLI::ParseError& error) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
@@ -77,6 +108,10 @@ std::string explain_misuse(const CLI::App& program, const CLI::ParseError& error
   if (!unread.empty())
     return fmt::format("{} does not know what to do with '{}'{}", command.get_name(), unread.front(),
                        help_line(program, command));
+  if (error.get_name() == "ArgumentMismatch") {
+    const std::string_view what = error.what();
+    return value_missing(command, std::string(what.substr(0, what.find(':')))) + help_line(program, command);
+  }
   return error.what() + help_line(program, command);
 }
 

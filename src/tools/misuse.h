@@ -1,6 +1,7 @@
 // What is wrong with a command line, and the way out.
 #pragma once
 
+#include <span>
 #include <string>
 
 namespace CLI {
@@ -9,6 +10,13 @@ class ParseError;
 }  // namespace CLI
 
 namespace tyndall::tools {
+
+// Makes each option and file of all commands refuse an empty value.
+void refuse_empty_values(CLI::App& program);
+
+// The complaint about a value joined to its option in a way that is not read, as in `--samples=` and
+// `-o=a.png`; empty where there is none. `arguments` without the program's own name.
+std::string misjoined_value(std::span<char* const> arguments);
 
 // The complaint about a command line that could not be read: a word that names no command or option is told
 // first, with the one that was likely meant.

@@ -9,14 +9,12 @@
 #include <charconv>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include "scene/ranges.h"
 
 namespace CLI {
 class App;
@@ -33,42 +31,19 @@ struct WholeOption {
   std::uint64_t most;  // included
 };
 
-namespace detail {
-constexpr WholeOption whole(std::string_view name, std::string_view form, const scene::WholeRange& range) {
-  return {name, form, range.least, static_cast<std::uint64_t>(range.most)};
-}
-inline constexpr std::int64_t last_pixel = scene::resolution_range.most - 1,
-                              last_sample = scene::samples_range.most - 1;
-}  // namespace detail
+// All of them, those of the scene's `render {}` first.
+std::span<const WholeOption> whole_options();
 
-inline constexpr WholeOption whole_options[] = {
-    detail::whole("--frame", "N", scene::frame_range),
-    detail::whole("--resolution", "WxH", scene::resolution_range),
-    detail::whole("--crop", "X0,Y0,X1,Y1", {0, scene::resolution_range.most}),
-    detail::whole("--samples", "N", scene::samples_range),
-    detail::whole("--light-samples", "N", scene::light_samples_range),
-    detail::whole("--bounces", "N", scene::bounces_range),
-    {"--seed", "N", 0, std::numeric_limits<std::uint64_t>::max()},
-    detail::whole("--sample-range", "A..B", {0, detail::last_sample}),
-    detail::whole("--threads", "N", {1, 4096}),
-    detail::whole("--pixel", "X,Y", {0, detail::last_pixel}),
-    detail::whole("--sample", "N", {0, detail::last_sample}),
-};
-
-// Options that take a number of any kind that is finite.
+// Options that take a number of any kind that is finite, or several in a form of their own.
 struct RealOption {
   std::string_view name, form;
+  std::string_view wanted;  // what it takes, for people
   bool takes_zero;
 };
-inline constexpr RealOption real_options[] = {
-    {"--step", "X|auto|auto(1%)", false}, {"--error", "X", false},
-    {"--time-limit", "S", false},         {"--max", "X", true},
-    {"--slice", "x|y|z=METRES", true},
-};
+std::span<const RealOption> real_options();
 
 // What an option takes, for people: "a whole number from 1 to 4096", "WxH, each a whole number from …".
 std::string wanted(const WholeOption& option);
-std::string wanted(const RealOption& option);
 // The table's row of this name; there is one.
 const WholeOption& whole_option(std::string_view name);
 const RealOption& real_option(std::string_view name);
@@ -84,11 +59,22 @@ std::optional<T> read_decimal(std::string_view text) {
   return value;
 }
 
+// "512MB", "1.5GB": bytes; nothing for anything else, or what is not between 16MB and 1TB.
+std::optional<std::uint64_t> read_bytes(std::string_view text);
+
 // The text cut at what stands between an option's numbers; nothing when it has another form.
 std::optional<std::vector<std::string_view>> split_as(std::string_view form, std::string_view text);
 
 // Complains that the option wants something else: misuse of the command line.
 [[noreturn]] void refuse(std::string_view option, std::string_view wanted, std::string_view text);
+
+// Complains that the option wants one of the names, with the one that is nearest.
+[[noreturn]] void refuse_name(std::string_view option, const std::vector<std::string_view>& names,
+                              std::string_view text);
+// That complaint without the option's name; empty where the text is one of the names: what check() wants.
+std::string name_problem(const std::vector<std::string_view>& names, std::string_view text);
+// What an option of any name takes: its table's row, or "a value".
+std::string wanted_by(std::string_view option);
 
 // The option's `count` numbers, all within its range, or a complaint.
 template <class Int, std::size_t count>
@@ -112,7 +98,7 @@ CLI::Option* add_text_option(CLI::App& command, std::string_view name, std::stri
 CLI::Option* add_whole_text_option(CLI::App& command, std::string_view name, const std::string& help,
                                    std::function<void(const std::string&, const WholeOption&)> read);
 
-// Adds a row of whole_options that goes into `target`: a number, or an optional one.
+// Adds a row of whole_options() that goes into `target`: a number, or an optional one.
 template <class Target>
 CLI::Option* add_whole(CLI::App& command, std::string_view name, Target& target, const std::string& help) {
   return add_whole_text_option(command, name, help,
@@ -123,7 +109,7 @@ CLI::Option* add_whole(CLI::App& command, std::string_view name, Target& target,
                                    target = read_wholes<Target, 1>(option, text)[0];
                                });
 }
-// Adds a row of real_options.
+// Adds a row of real_options().
 CLI::Option* add_real(CLI::App& command, std::string_view name, std::optional<double>& target,
                       const std::string& help);
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/source.h"
-#include "vm/program.h"
+#include "vm/program/program.h"
 
 namespace tyndall::tools {
 
@@ -18,7 +18,7 @@ struct ProgramLanes {
 };
 
 // For every shader the share of each source line in the time of all shaders: instructions times lanes, each
-// by the cost of its operation (vm/op.h). Programs of one shader are added up.
+// by the cost of its operation (vm/program/op.h). Programs of one shader are added up.
 std::string profile_text(const std::vector<ProgramLanes>& programs, const Sources& sources);
 
 }  // namespace tyndall::tools

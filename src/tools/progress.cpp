@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tools/report.h"
 
@@ -40,16 +41,26 @@ std::string count_text(double count) {
 }
 
 render::Progress ProgressPrinter::callback() {
-  if (style_ == ProgressStyle::none) return {};
+  if (style_ == ProgressStyle::none && !sequence_) return {};
   return {[this](double fraction, double samples_per_second) { report(fraction, samples_per_second); }};
 }
 
 void ProgressPrinter::report(double fraction, double samples_per_second) {
   fraction = std::clamp(fraction, 0.0, 1.0);
   elapsed_ += watch_.lap();
-  const std::string left = fraction > 0 ? duration_text(elapsed_ * (1 - fraction) / fraction) : "?";
-  const std::string text = fmt::format("{:3.0f} %  {}samples/s  {} left", std::floor(100 * fraction),
-                                       count_text(samples_per_second), left);
+  std::optional<double> left;
+  // A render that goes on from a checkpoint begins with what others did.
+  if (!first_fraction_) first_fraction_ = fraction, first_elapsed_ = elapsed_;
+  if (const double gained = fraction - *first_fraction_; gained > 0)
+    left = (elapsed_ - first_elapsed_) * (1 - fraction) / gained;
+  if (sequence_) {
+    sequence_->report(fraction, samples_per_second);
+    left = sequence_->seconds_left(fraction);
+  }
+  if (style_ == ProgressStyle::none) return;
+  const std::string text = fmt::format("{}{:3.0f} %  {}samples/s  {} left",
+                                       sequence_ ? sequence_->place() + "  " : "", std::floor(100 * fraction),
+                                       count_text(samples_per_second), left ? duration_text(*left) : "?");
   if (style_ == ProgressStyle::bar) {
     print_message(fmt::format("\r{} {}\x1b[K", bar(fraction), text));
     bar_shown_ = true;

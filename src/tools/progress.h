@@ -1,9 +1,11 @@
 // How far the rendering is, on standard error: a bar on a terminal, now and then a line elsewhere.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "render/render.h"
+#include "tools/sequence_progress.h"
 #include "tools/stopwatch.h"
 
 namespace tyndall::tools {
@@ -17,7 +19,9 @@ std::string count_text(double count);
 
 class ProgressPrinter {
  public:
-  explicit ProgressPrinter(ProgressStyle style) : style_(style) {}
+  // `sequence`: that the rendering is a frame of; null: of none.
+  explicit ProgressPrinter(ProgressStyle style, SequenceProgress* sequence = nullptr)
+      : style_(style), sequence_(sequence) {}
   ~ProgressPrinter() { clear(); }
   ProgressPrinter(const ProgressPrinter&) = delete;
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
@@ -31,8 +35,11 @@ class ProgressPrinter {
   void report(double fraction, double samples_per_second);
 
   ProgressStyle style_;
+  SequenceProgress* sequence_;
   Stopwatch watch_;
   double elapsed_ = 0, next_line_at_ = 10;  // [s]
+  std::optional<double> first_fraction_;    // that was reported
+  double first_elapsed_ = 0;                // … and when [s]
   bool bar_shown_ = false;
 };
 

@@ -10,18 +10,6 @@
 namespace tyndall::tools {
 namespace {
 
-std::string_view severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::note:
-      return "note";
-    case Severity::warning:
-      return "warning";
-    case Severity::error:
-      return "error";
-  }
-  return {};
-}
-
 void print_placeless(std::string_view severity, std::string_view color, std::string_view message) {
   if (error_output_has_color()) {
     print_message(fmt::format("tyndall: \x1b[1;{}m{}:\x1b[0m {}\n", color, severity, message));
@@ -60,10 +48,15 @@ void print_diagnostics(const Diagnostics& diagnostics, const Sources& sources) {
 void print_error(std::string_view message) { print_placeless("error", "31", message); }
 void print_warning(std::string_view message) { print_placeless("warning", "35", message); }
 
+ExitStatus misuse(std::string_view message) {
+  print_error(message);
+  return ExitStatus::misuse;
+}
+
 nlohmann::json to_json(const Diagnostics& diagnostics, const Sources& sources) {
   nlohmann::json list = nlohmann::json::array();
   for (const Diagnostic& diagnostic : diagnostics.all()) {
-    nlohmann::json object{{"severity", severity_name(diagnostic.severity)}, {"message", diagnostic.message}};
+    nlohmann::json object{{"severity", name(diagnostic.severity)}, {"message", diagnostic.message}};
     add_place(object, diagnostic.span, sources);
     if (!diagnostic.help.empty()) object["help"] = diagnostic.help;
     for (const Diagnostic::Note& note : diagnostic.notes) {
@@ -74,6 +67,11 @@ nlohmann::json to_json(const Diagnostics& diagnostics, const Sources& sources) {
     list.push_back(std::move(object));
   }
   return list;
+}
+
+void print_json_line(const nlohmann::json& value) {
+  print_result(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  std::fflush(stdout);
 }
 
 void print_json(const nlohmann::json& value) {

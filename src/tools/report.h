@@ -6,6 +6,7 @@
 
 #include "base/diagnostics.h"
 #include "base/source.h"
+#include "tools/exit_status.h"
 
 namespace tyndall::tools {
 
@@ -23,10 +24,14 @@ void print_diagnostics(const Diagnostics& diagnostics, const Sources& sources);
 // Prints `tyndall: error: message` (or warning) on standard error: for what has no place in a scene.
 void print_error(std::string_view message);
 void print_warning(std::string_view message);
+// Prints the error, and is how a command ends that was called in a wrong way.
+ExitStatus misuse(std::string_view message);
 
 // A list of {severity, file, line, column, end_line, end_column, message, help, notes}; places are left out
 // where there are none.
 nlohmann::json to_json(const Diagnostics& diagnostics, const Sources& sources);
+// Prints the value on a line of its own, and lets it be seen at once.
+void print_json_line(const nlohmann::json& value);
 // Prints the value on standard output, with bytes that are no UTF-8 replaced.
 void print_json(const nlohmann::json& value);
 

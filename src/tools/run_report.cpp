@@ -1,15 +1,14 @@
 #include "tools/run_report.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "render/segment_limit.h"
+#include "render/march/segment_limit.h"
+#include "resolve/told_values.h"
+#include "tools/identity.h"
 #include "tools/progress.h"
-#include "vm/machine.h"
 
 namespace tyndall::tools {
 namespace {
@@ -22,43 +21,7 @@ SampleRange samples_of(const RenderArguments& arguments, const scene::Scene& sce
 // Without --crop.
 double mean_samples(const scene::Scene& scene, const render::Statistics& statistics) {
   return static_cast<double>(statistics.samples) /
-         (static_cast<double>(scene.settings.width) * scene.settings.height);
-}
-
-// Largest resident size of the process so far [bytes].
-std::uint64_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
-
-std::string_view kind_name(render::BadValue::Kind kind) {
-  switch (kind) {
-    case render::BadValue::Kind::undefined:
-      return "undefined";
-    case render::BadValue::Kind::below:
-      return "below";
-    case render::BadValue::Kind::above:
-      return "above";
-    case render::BadValue::Kind::coarse:
-      return "coarse";
-  }
-  return {};
-}
-
-nlohmann::json bad_values_json(const std::vector<render::BadValue>& bad_values, const Sources& sources) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const render::BadValue& bad : bad_values) {
-    nlohmann::json object{{"kind", kind_name(bad.kind)}, {"in", bad.shader}, {"count", bad.count}};
-    if (!bad.output.empty()) object["output"] = bad.output;
-    if (bad.span.valid()) {
-      const Source& source = sources[bad.span.source];
-      object["file"] = source.name();
-      object["line"] = source.locate(bad.span.begin).line;
-    }
-    list.push_back(std::move(object));
-  }
-  return list;
+         (static_cast<double>(scene.settings.resolution.width) * scene.settings.resolution.height);
 }
 
 // The error that was reached, and whether it is to be trusted.
@@ -71,10 +34,16 @@ std::string error_text(double wanted, const render::Statistics& statistics) {
   return text;
 }
 
-nlohmann::json shortfall_json(const render::Shortfall& shortfall) {
-  nlohmann::json object{{"rays", shortfall.rays}};
-  if (shortfall.rays > 0) object.update({{"asked", shortfall.asked}, {"reached", shortfall.reached}});
-  return object;
+// Whether what is marched depends on the steps of marches.
+bool steps_matter(const RenderArguments& arguments, const render::Statistics& statistics) {
+  const bool tracked =
+      arguments.method == render::Method::tracking && render::by_ratio(arguments.transmittance);
+  return (statistics.step_bias.known || statistics.step_bias.proven > 0) && !tracked;
+}
+
+// A share as people read it.
+std::string percent(double share) {
+  return share < 0.0005 ? "below 0.05 %" : fmt::format("about {:.2g} %", 100 * share);
 }
 
 // What is told of a shader's bad values, and the way out.
@@ -94,6 +63,8 @@ std::pair<std::string, std::string> text_of(const render::BadValue& bad) {
     case render::BadValue::Kind::below:
       return {told(" below " + lowest, lowest), fmt::format("max({}, …) says that it is meant", lowest)};
     case render::BadValue::Kind::above:
+      if (bad.instead)
+        return {told(" that are infinite", std::string(*bad.instead)), "look for a division by zero"};
       if (bad.highest >= double{scene::largest_coefficient})
         return {told(" that are infinite or above 1e30", "1e30"), "look for a division by zero"};
       return {told(" above " + highest, highest), fmt::format("min({}, …) says that it is meant", highest)};
@@ -113,124 +84,73 @@ std::string rounded_up(double value) {
   return fmt::format("{:.3g}", std::ceil(value / unit * (1 - 1e-9)) * unit);
 }
 
+// Likewise down, as what must not be asked too high.
+std::string rounded_down(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return fmt::format("{:.3g}", std::floor(value / unit * (1 + 1e-9)) * unit);
+}
+
 std::string counted_rays(std::uint64_t rays) {
   return fmt::format("{} {}", rays, rays == 1 ? "ray" : "rays");
 }
 
-}  // namespace
-
-std::string stable_hash(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return fmt::format("{:016x}", hash);
+// How many bounces leave out less than this share of the light.
+std::string enough_bounces(int bounces, const render::Statistics& statistics, double share) {
+  const double late = bounces + 1 - static_cast<double>(render::first_late_bounce(bounces));
+  const double more =
+      std::ceil(late * std::log(statistics.cut_share() / share) / -std::log(statistics.cut_light.left()));
+  const double enough = bounces + std::max(more, 1.0);
+  if (!(enough < static_cast<double>(scene::RenderSettings::bounces_range.most)))
+    return "the light hardly fades from bounce to bounce: give surfaces and media an albedo below 1";
+  return fmt::format("it takes `bounces: {}` or more until it is below 1%", rounded_up(enough));
 }
 
-image::Metadata metadata_of(const RenderArguments& arguments, const scene::Scene& scene,
-                            const std::string& scene_hash, const render::Statistics& statistics) {
-  const SampleRange samples = samples_of(arguments, scene);
-  std::string settings = fmt::format(
-      "step={} light_samples={} bounces={} multiple_scattering={} method={} distance={} transmittance={} "
-      "emission={}",
-      scene::describe(scene.settings.step), scene.settings.light_samples, scene.settings.bounces,
-      scene::describe(scene.settings.multiple_scattering), name(arguments.method), name(arguments.distance),
-      name(arguments.transmittance), name_in(emissions, arguments.emission_sampling));
-  if (arguments.crop) {
-    const auto& crop = *arguments.crop;
-    settings += fmt::format(" crop={},{},{},{}", crop.x0, crop.y0, crop.x1, crop.y1);
-  }
-  std::string count = fmt::format("{}..{}", samples.first, samples.last);
-  if (arguments.error) {
-    settings += fmt::format(" error={}", *arguments.error);
-    count = fmt::format("{} a pixel on average", mean_samples(scene, statistics));
-  } else if (statistics.uneven) {
-    count = fmt::format("{} a pixel on average", mean_samples(scene, statistics));
-  } else if (arguments.time_limit) {
-    count = fmt::format("0..{}", static_cast<std::int64_t>(mean_samples(scene, statistics)) - 1);
-  }
-  image::Metadata metadata{
-      {"Software", "Tyndall " TYNDALL_VERSION},
-      {"tyndall:version", TYNDALL_VERSION},
-      {"tyndall:scene_hash", scene_hash},
-      {"tyndall:frame", fmt::format("{}", scene.frame)},
-      {"tyndall:samples", count},
-      {"tyndall:seed", fmt::format("{}", scene.settings.seed)},
-      {"tyndall:settings", settings},
-      {"tyndall:simd", vm::simd_name()},
-  };
-  if (statistics.stopped)
-    metadata.emplace_back("tyndall:interrupted", fmt::format("after {} samples in all", statistics.samples));
-  return metadata;
+// Whether it was told before the rendering, of the same statement.
+bool was_told(const render::BadValue& bad, const Diagnostics& diagnostics) {
+  using resolve::OutOfRange;
+  if (bad.kind == render::BadValue::Kind::coarse || bad.output.empty()) return false;
+  const OutOfRange kind = bad.kind == render::BadValue::Kind::undefined ? OutOfRange::undefined
+                          : bad.kind == render::BadValue::Kind::below   ? OutOfRange::below
+                                                                        : OutOfRange::above;
+  const std::string told = resolve::told_out_of_range(bad.output, kind, bad.lowest, bad.highest);
+  return std::any_of(diagnostics.all().begin(), diagnostics.all().end(),
+                     [&](const Diagnostic& d) { return d.span == bad.span && d.message.starts_with(told); });
 }
 
-nlohmann::json statistics_json(const scene::Scene& scene, const std::string& scene_hash,
-                               const StageSeconds& seconds, const render::Statistics& statistics,
-                               const Sources& sources) {
-  const render::Statistics& s = statistics;
-  nlohmann::json result{
-      {"version", TYNDALL_VERSION},
-      {"simd", vm::simd_name()},
-      {"scene_hash", scene_hash},
-      {"frame", scene.frame},
-      {"resolution", {scene.settings.width, scene.settings.height}},
-      {"interrupted", s.stopped},
-      {"threads", s.threads},
-      {"seconds",
-       {{"read", seconds.read},
-        {"parse", seconds.parse},
-        {"resolve", seconds.resolve},
-        {"compile", seconds.compile},
-        {"render", seconds.render},
-        {"write", seconds.write}}},
-      {"samples", s.samples},
-      {"samples_per_second", s.seconds > 0 ? static_cast<double>(s.samples) / s.seconds : 0},
-      {"rays", s.rays},
-      {"shadow_rays", s.shadow_rays},
-      {"marches", s.marches},
-      {"segments", s.segments},
-      {"cut_majorants", s.cut_majorants},
-      {"widened_steps", shortfall_json(s.widened_steps)},
-      {"missed_tolerances", shortfall_json(s.missed_tolerances)},
-      {"vm",
-       {{"runs", s.vm_runs},
-        {"instructions", s.vm_instructions},
-        {"lanes_issued", s.lanes_issued},
-        {"lanes_used", s.lanes_used}}},
-      {"bad_samples", s.bad_samples},
-      {"clipped_samples", s.clipped_samples},
-      {"lost_light", s.light > 0 ? s.lost_light / s.light : 0},
-      {"bad_values", bad_values_json(s.bad_values, sources)},
-      {"cut_paths", s.cut_paths},
-      {"cut_throughput", s.cut_throughput},
-      {"peak_memory_bytes", peak_memory()},
-  };
-  if (s.estimated_error > 0) {
-    result["estimated_error"] = s.estimated_error;
-    result["outlier_share"] = s.outlier_share;
-  }
-  if (s.out_of_time) result["out_of_time"] = true;
-  if (s.pixels_without_samples > 0) result["pixels_without_samples"] = s.pixels_without_samples;
-  if (s.first_bad_sample)
-    result["first_bad_sample"] = {{"pixel", {s.first_bad_sample->x, s.first_bad_sample->y}},
-                                  {"sample", s.first_bad_sample->sample}};
-  return result;
-}
+// Tells of a run: what may be an error is one with --strict.
+struct Teller {
+  const RenderArguments& arguments;
+  const scene::Scene& scene;
+  const render::Statistics& statistics;
+  Diagnostics& diagnostics;
 
-void report_run_problems(const RenderArguments& arguments, const render::Statistics& statistics,
-                         Diagnostics& diagnostics) {
-  const auto report = [&](Span span, std::string message, std::string help) {
+  void report(Span span, std::string message, std::string help) {
     if (arguments.strict) {
       diagnostics.error(span, std::move(message), std::move(help));
     } else {
       diagnostics.warning(span, std::move(message), std::move(help));
     }
-  };
+  }
+  void tell_values();
+  void tell_samples();
+  void tell_steps();
+  void tell_lost_light();
+};
+
+// What shaders gave out of range.
+void Teller::tell_values() {
   for (const render::BadValue& bad : statistics.bad_values) {
+    if (was_told(bad, diagnostics)) continue;
     const auto [message, help] = text_of(bad);
     if (bad.kind == render::BadValue::Kind::coarse)
       diagnostics.warning(bad.span, message, help);
     else
       report(bad.span, message, help);
   }
+}
+
+// Samples and pixels that are bad or missing.
+void Teller::tell_samples() {
   if (const auto& first = statistics.first_bad_sample)
     report({},
            fmt::format("{} {} not finite, and counted as black", statistics.bad_samples,
@@ -245,6 +165,22 @@ void report_run_problems(const RenderArguments& arguments, const render::Statist
   if (statistics.threads_missed > 0)
     diagnostics.warning({}, fmt::format("{} threads could not be had, and {} did the work",
                                         statistics.threads_missed, statistics.threads));
+}
+
+// Steps that are too long or were widened, tolerances that were not kept.
+void Teller::tell_steps() {
+  constexpr double told_bias = 0.02;
+  if (const compile::StepBias& bias = statistics.step_bias;
+      steps_matter(arguments, statistics) && bias.worst_share > told_bias)
+    diagnostics.warning(
+        {},
+        fmt::format("a step of {:.3g} m is too long, and changes the light of the picture by {}", bias.worst,
+                    percent(bias.worst_share)),
+        bias.enough < bias.worst ? fmt::format("`step: {}` would do, or none, for `auto` is the default",
+                                               rounded_down(bias.enough))
+                                 : "it is the finest that a ray may have: a smaller volume around what "
+                                   "varies most allows finer ones, "
+                                   "--method tracking with --transmittance ratio needs none");
   if (const render::Shortfall& steps = statistics.widened_steps; steps.rays > 0)
     diagnostics.warning(
         {},
@@ -255,16 +191,20 @@ void report_run_problems(const RenderArguments& arguments, const render::Statist
                     "that it is meant",
                     rounded_up(steps.reached)));
   if (const render::Shortfall& missed = statistics.missed_tolerances; missed.rays > 0)
-    report(
-        {},
-        fmt::format("the tolerance of `step: auto({:.3g}%)` takes more than {} segments on {}, within which "
-                    "{}% is reached",
-                    missed.asked * 100, render::max_segments, counted_rays(missed.rays),
-                    rounded_up(missed.reached * 100)),
-        fmt::format("{}--method tracking with --transmittance ratio needs no segments",
-                    missed.reached < 1
-                        ? fmt::format("`step: auto({}%)` is kept; ", rounded_up(missed.reached * 100))
-                        : "a smaller volume around what varies most takes fewer; "));
+    report({},
+           fmt::format(
+               "`step: auto({:.3g}%)` is not kept on {}: the {} segments that a ray may have prove no better "
+               "than {}%",
+               missed.asked * 100, counted_rays(missed.rays), render::max_segments,
+               rounded_up(missed.reached * 100)),
+           fmt::format("{}--method tracking with --transmittance ratio needs no segments",
+                       missed.reached < 1
+                           ? fmt::format("`step: auto({}%)` is kept; ", rounded_up(missed.reached * 100))
+                           : "a smaller volume around what varies most takes fewer; "));
+}
+
+// Light that the film, `bounces` or cut bounds left out.
+void Teller::tell_lost_light() {
   // What a shader gave out of range is told already, and with its line.
   const bool told =
       std::any_of(statistics.bad_values.begin(), statistics.bad_values.end(),
@@ -279,6 +219,12 @@ void report_run_problems(const RenderArguments& arguments, const render::Statist
                                          statistics.clipped_samples == 1 ? "sample was" : "samples were")
                            : "it is too dark"),
            "light adds up: scale all lights by one factor, and the picture by its inverse");
+  constexpr double told_cut = 0.01;
+  if (statistics.cut_share() > told_cut)
+    diagnostics.warning({},
+                        fmt::format("`bounces: {}` left out about {:.2g}% of the light",
+                                    scene.settings.bounces, statistics.cut_share() * 100),
+                        enough_bounces(scene.settings.bounces, statistics, told_cut));
   if (statistics.cut_majorants > 0)
     diagnostics.warning(
         {},
@@ -288,28 +234,58 @@ void report_run_problems(const RenderArguments& arguments, const render::Statist
         "--transmittance, for marching needs no bounds");
 }
 
+}  // namespace
+
+std::string samples_text(const RenderArguments& arguments, const scene::Scene& scene,
+                         const render::Statistics& statistics) {
+  const double mean = mean_samples(scene, statistics);
+  if (arguments.error || statistics.uneven) return fmt::format("{} a pixel on average", mean);
+  if (arguments.time_limit) return fmt::format("0..{}", static_cast<std::int64_t>(mean) - 1);
+  const SampleRange samples = samples_of(arguments, scene);
+  return fmt::format("{}..{}", samples.first, samples.last);
+}
+
+std::optional<render::ClampedLight> clamped_light(const scene::Scene& scene,
+                                                  const render::Statistics& statistics) {
+  if (!scene.settings.clamp.limits()) return std::nullopt;
+  return statistics.clamped_light;
+}
+
+std::string step_bias_text(const RenderArguments& arguments, const render::Statistics& statistics) {
+  if (!steps_matter(arguments, statistics)) return {};
+  const compile::StepBias& bias = statistics.step_bias;
+  if (bias.known) return percent(bias.share);
+  return fmt::format("below {:.3g} % of what media let through (proven)", 100 * bias.proven);
+}
+
+void report_run_problems(const RenderArguments& arguments, const scene::Scene& scene,
+                         const render::Statistics& statistics, Diagnostics& diagnostics) {
+  Teller teller{arguments, scene, statistics, diagnostics};
+  teller.tell_values();
+  teller.tell_samples();
+  teller.tell_steps();
+  teller.tell_lost_light();
+}
+
 std::string summary_line(const RenderArguments& arguments, const scene::Scene& scene,
                          const render::Statistics& statistics) {
   const double rate =
       statistics.seconds > 0 ? static_cast<double>(statistics.samples) / statistics.seconds : 0;
   std::string samples;
   if (arguments.error || arguments.time_limit) {
-    samples = fmt::format("{:.3g} samples a pixel", mean_samples(scene, statistics));
+    samples = fmt::format("{:.3g} samples per pixel", mean_samples(scene, statistics));
     if (statistics.estimated_error > 0) samples += error_text(*arguments.error, statistics);
     if (statistics.out_of_time) samples += ", out of time";
   } else {
     const SampleRange range = samples_of(arguments, scene);
-    samples = fmt::format("{} samples a pixel{}", range.last - range.first + 1,
+    samples = fmt::format("{} samples per pixel{}", range.last - range.first + 1,
                           statistics.stopped ? " wanted, interrupted" : "");
   }
-  constexpr double told_cut = 0.01;
-  const std::string cut = statistics.cut_throughput > told_cut
-                              ? fmt::format("; `bounces: {}` cut {:.2g}% of the light",
-                                            scene.settings.bounces, statistics.cut_throughput * 100)
-                              : std::string();
-  return fmt::format("{}: {}x{}, {} in {}, {}samples/s{}\n", arguments.output, scene.settings.width,
-                     scene.settings.height, samples, duration_text(statistics.seconds), count_text(rate),
-                     cut);
+  const std::string bias = step_bias_text(arguments, statistics);
+  return fmt::format(
+      "{}: {}x{}, {} in {}, {}samples/s{}{}\n", arguments.output, scene.settings.resolution.width,
+      scene.settings.resolution.height, samples, duration_text(statistics.seconds), count_text(rate),
+      bias.empty() ? bias : ", step bias " + bias, removed_text(clamped_light(scene, statistics)));
 }
 
 }  // namespace tyndall::tools

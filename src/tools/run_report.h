@@ -1,4 +1,4 @@
-// What is told about a finished rendering: the picture's metadata, the statistics as JSON, warnings, the last
+// What is told about a finished rendering: its samples, the statistics as JSON, warnings, the last
 // line.
 #pragma once
 
@@ -6,7 +6,6 @@
 #include <string>
 
 #include "base/diagnostics.h"
-#include "image/image.h"
 #include "render/render.h"
 #include "tools/render_arguments.h"
 
@@ -17,26 +16,31 @@ struct StageSeconds {
   double read = 0, parse = 0, resolve = 0, compile = 0, render = 0, write = 0;
 };
 
-// A number that stays the same as long as the scene's printed form does: FNV-1a of the text, 64 bits in
-// hexadecimal.
-std::string stable_hash(std::string_view text);
+// What is to be said of the samples of a pixel: "0..63", "12.5 a pixel on average".
+std::string samples_text(const RenderArguments& arguments, const scene::Scene& scene,
+                         const render::Statistics& statistics);
 
-// Everything that decided the picture and nothing else: two runs of any thread count write the same.
-image::Metadata metadata_of(const RenderArguments& arguments, const scene::Scene& scene,
-                            const std::string& scene_hash, const render::Statistics& statistics);
+// What the scene's clamp removed; nothing where it has none.
+std::optional<render::ClampedLight> clamped_light(const scene::Scene& scene,
+                                                  const render::Statistics& statistics);
+
+// What the steps of its marches change of a picture, by estimate: "about 0.4 %", or by
+// proof; empty where there are none.
+std::string step_bias_text(const RenderArguments& arguments, const render::Statistics& statistics);
 
 // The contents of --stats FILE.json.
 nlohmann::json statistics_json(const scene::Scene& scene, const std::string& scene_hash,
                                const StageSeconds& seconds, const render::Statistics& statistics,
-                               const Sources& sources);
+                               const Sources& sources, const resolve::AssetBytes& assets);
 
 // Adds a message for every shader statement that gave bad values, and for bad samples with the command that
 // replays the first: warnings, or errors with --strict; so for tolerances that were not kept and for
-// light that the film lost. Warns of steps that were widened, and of bounds that were cut.
-void report_run_problems(const RenderArguments& arguments, const render::Statistics& statistics,
-                         Diagnostics& diagnostics);
+// light that the film lost. Warns of steps that are too long or were widened, of light that `bounces` left
+// out and of bounds that were cut.
+void report_run_problems(const RenderArguments& arguments, const scene::Scene& scene,
+                         const render::Statistics& statistics, Diagnostics& diagnostics);
 
-// "fog.exr: 640x360, 64 samples a pixel in 0:12, 1.20 Msamples/s", and what `bounces` cut when that is much.
+// "fog.exr: 640x360, 64 samples per pixel in 0:12, 1.20 Msamples/s".
 std::string summary_line(const RenderArguments& arguments, const scene::Scene& scene,
                          const render::Statistics& statistics);
 

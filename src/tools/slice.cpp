@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tools/numbers.h"
-#include "vm/machine.h"
+#include "vm/run/machine.h"
 
 namespace tyndall::tools {
 

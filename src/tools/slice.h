@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compile/compiled_scene.h"
-#include "compile/shape_queries.h"
+#include "compile/geometry/shape_hit.h"
 #include "image/image.h"
 #include "scene/medium.h"
 

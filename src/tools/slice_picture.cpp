@@ -6,36 +6,19 @@
 #include <cmath>
 #include <string_view>
 
-#include "base/vec.h"
+#include "image/false_colors.h"
 #include "tools/slice.h"
 
 namespace tyndall::tools {
 
 namespace {
 
-using Color = std::array<double, 3>;  // sRGB values in [0, 1]
+using image::color_of_level;
+using Color = image::SrgbColor;
 
-constexpr Color paper{0.13, 0.13, 0.15}, ink{0.9, 0.9, 0.9}, not_a_number{1, 0, 1};
+constexpr Color paper{0.13, 0.13, 0.15}, ink{0.9, 0.9, 0.9};
 constexpr int margin = 8, bar_width = 16, letter_scale = 2, letter_pitch = 4 * letter_scale,
               line_height = 8 * letter_scale;
-
-// Rises evenly in lightness, so that what looks brighter is more, and passes through hues that tell levels
-// apart.
-Color color_of_level(double level) {
-  constexpr std::array<Color, 7> stops = {{{0.03, 0.03, 0.12},
-                                           {0.19, 0.09, 0.42},
-                                           {0.45, 0.14, 0.48},
-                                           {0.74, 0.25, 0.38},
-                                           {0.93, 0.47, 0.22},
-                                           {0.98, 0.75, 0.30},
-                                           {0.99, 0.98, 0.78}}};
-  const double place = std::clamp(level, 0.0, 1.0) * (stops.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(place), stops.size() - 2);
-  Color color{};
-  for (std::size_t k = 0; k < 3; ++k)
-    color[k] = stops[i][k] + (stops[i + 1][k] - stops[i][k]) * (place - static_cast<double>(i));
-  return color;
-}
 
 // Letters of three by five points, a row an octal digit from the top.
 struct Letter {
@@ -59,7 +42,8 @@ class Canvas {
 
   void set(int x, int y, const Color& color) {
     if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return;
-    for (std::size_t k = 0; k < 3; ++k) image_.at(x, y, k) = linear(color[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      image_.at(x, y, k) = image::linear_from_srgb(static_cast<float>(color[k]));
   }
   void fill(int x0, int y0, int x1, int y1, const Color& color) {
     for (int y = y0; y < y1; ++y)
@@ -80,10 +64,6 @@ class Canvas {
   image::Image image() && { return std::move(image_); }
 
  private:
-  // IEC 61966-2-1.
-  static float linear(double s) {
-    return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-  }
   image::Image image_;
 };
 
@@ -120,7 +100,7 @@ image::Image picture_of(const Slice& slice) {
                                          static_cast<std::size_t>(x)];
         const double level =
             range > 0 ? (static_cast<double>(v) - static_cast<double>(slice.lowest)) / range : 0.5;
-        canvas.set(x0 + x, margin + y, std::isfinite(v) ? color_of_level(level) : not_a_number);
+        canvas.set(x0 + x, margin + y, std::isfinite(v) ? color_of_level(level) : image::color_of_no_number);
       }
     canvas.text(x0, margin + height + letter_scale, left);
     canvas.text(x0 + panel - text_width(right), margin + height + letter_scale, right);

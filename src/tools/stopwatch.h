@@ -7,12 +7,13 @@ namespace tyndall::tools {
 
 class Stopwatch {
  public:
-  // Seconds since it was made or last read.
+  // Seconds since it was made or last began a lap.
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  // The same, and begins one.
   double lap() {
-    const auto now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
+    const double before = seconds();
+    start_ = Clock::now();
+    return before;
   }
 
  private:

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 // A source and a span of the first occurrence of `mark` in it.
 struct Place {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 TEST(SafeSqrt, TakesRoundingBelowZeroAsZero) {
   EXPECT_EQ(safe_sqrt(-1e-30), 0.0);

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 std::vector<int> visits(std::size_t count, int threads, int& workers) {
   std::vector<std::atomic<int>> counts(count);

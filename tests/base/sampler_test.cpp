@@ -7,7 +7,7 @@
 #include <set>
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 // The first 2^m points of the first two dimensions meet every elementary interval of area 2^-m once: a (0, m,
 // 2)-net, also in later aligned blocks.

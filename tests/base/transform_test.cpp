@@ -6,7 +6,7 @@
 #include "base/numerics.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 void expect_near(const Vec3d& a, const Vec3d& b, double tolerance = 1e-12) {
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(a[axis], b[axis], tolerance) << "axis " << axis;

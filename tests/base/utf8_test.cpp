@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 TEST(Utf8, EveryScalarValueComesBack) {
   for (char32_t c = 0; c <= 0x10ffff; ++c) {

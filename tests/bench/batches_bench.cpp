@@ -15,7 +15,7 @@
 #include "compile/compiled_scene.h"
 #include "render/render.h"
 #include "scene_file.h"
-#include "vm/machine.h"
+#include "vm/run/machine.h"
 
 namespace tyndall {
 
@@ -104,7 +104,7 @@ class Refiller : public vm::RunObserver {
 };
 
 bool has_varying_medium(const compile::CompiledScene& world) {
-  return std::any_of(world.media.begin(), world.media.end(), [](const auto& m) { return !m.homogeneous; });
+  return std::any_of(world.media.begin(), world.media.end(), [](const auto& m) { return !m.uniform; });
 }
 
 double median(std::vector<double> v) {
@@ -126,8 +126,8 @@ bool bench_batches() {
   for (const fs::path& path : paths) {
     std::optional<scene::Scene> scene = load_scene(path.string());
     if (!scene) return false;
-    scene->settings.width = 96;
-    scene->settings.height = 54;
+    scene->settings.resolution.width = 96;
+    scene->settings.resolution.height = 54;
     const compile::CompiledScene world = compile::compile(std::move(*scene));
     if (!has_varying_medium(world)) continue;
     const Programs programs = programs_of_media(world.scene);

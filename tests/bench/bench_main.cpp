@@ -1,5 +1,6 @@
-// tyndall-bench [NAME] [SECONDS]: how fast things are, by hand; no test. Exits with 1 when a target is
-// missed.
+// tyndall-bench [NAME|list] [SECONDS]: how fast things are, by hand; no test. Exits with 1 when a target is
+// missed. `errors`, `denoise`, `sampling`, `default-steps`, `pepper` and `quality` take a part of a scene's
+// name instead of seconds.
 #include <fmt/format.h>
 
 #include <array>
@@ -10,48 +11,65 @@
 
 namespace {
 
+struct Asked {
+  double seconds = 0.3;   // a row
+  std::string_view part;  // the second argument as it is
+};
+
 struct Benchmark {
   std::string_view name;
   bool in_all = false;
-  bool (*run)(double seconds) = nullptr;  // false when a target is missed
+  bool (*run)(const Asked& asked) = nullptr;  // false when a target is missed
 };
 
 using namespace tyndall;
-// `language` is first, while the process has one thread: it measures children.
+// `language` and `inputs` are first, while the process has one thread: they measure children.
 constexpr std::array benchmarks{
-    Benchmark{"language", true, [](double) { return bench_language(); }},
-    Benchmark{"vm", true, [](double seconds) { return vm::bench(seconds); }},
-    Benchmark{"ops", false, [](double seconds) { return vm::bench_ops(seconds / 10), true; }},
-    Benchmark{"batches", true, [](double) { return bench_batches(); }},
-    Benchmark{"bounds", true, [](double seconds) { return bench_bounds(seconds); }},
-    Benchmark{"lights", true, [](double) { return bench_lights(); }},
-    Benchmark{"errors", false, [](double) { return bench_errors(); }},
-    Benchmark{"fire", false, [](double) { return bench_fire(); }},
-    Benchmark{"hair", false, [](double) { return bench_hair(); }},
-    Benchmark{"scattering", false, [](double) { return bench_scattering(); }},
-    Benchmark{"sunward", false, [](double) { return bench_sunward(); }},
-    Benchmark{"transmittance", false, [](double) { return bench_transmittance(), true; }},
-    Benchmark{"sampling", false, [](double) { return bench_sampling(); }},
-    Benchmark{"steps", false, [](double) { return bench_steps(); }},
-    Benchmark{"sampling-pictures", false, [](double) { return write_sampling_pictures(); }},
-    Benchmark{"verify", false, [](double) { return print_verification(); }},
-    Benchmark{"scenes", true, [](double seconds) { return bench_scenes(seconds); }},
+    Benchmark{"language", true, [](const Asked&) { return bench_language(); }},
+    Benchmark{"inputs", true, [](const Asked&) { return bench_inputs(); }},
+    Benchmark{"vm", true, [](const Asked& asked) { return vm::bench(asked.seconds); }},
+    Benchmark{"ops", false, [](const Asked& asked) { return vm::bench_ops(asked.seconds / 10), true; }},
+    Benchmark{"batches", true, [](const Asked&) { return bench_batches(); }},
+    Benchmark{"bounds", true, [](const Asked& asked) { return bench_bounds(asked.seconds); }},
+    Benchmark{"lights", true, [](const Asked&) { return bench_lights(); }},
+    Benchmark{"errors", false, [](const Asked& asked) { return bench_errors(asked.part); }},
+    Benchmark{"denoise", false, [](const Asked& asked) { return bench_denoise(asked.part); }},
+    Benchmark{"fire", false, [](const Asked&) { return bench_fire(); }},
+    Benchmark{"hair", false, [](const Asked&) { return bench_hair(); }},
+    Benchmark{"motion", true, [](const Asked&) { return bench_motion(); }},
+    Benchmark{"scattering", false, [](const Asked&) { return bench_scattering(); }},
+    Benchmark{"distant-guiding", false, [](const Asked&) { return bench_distant_guiding(); }},
+    Benchmark{"pepper", false, [](const Asked& asked) { return bench_pepper(asked.part); }},
+    Benchmark{"quality", false, [](const Asked& asked) { return bench_quality(asked.part); }},
+    Benchmark{"transmittance", false, [](const Asked&) { return bench_transmittance(), true; }},
+    Benchmark{"sampling", false, [](const Asked& asked) { return bench_sampling(asked.part); }},
+    Benchmark{"steps", false, [](const Asked&) { return bench_steps(); }},
+    Benchmark{"default-steps", false, [](const Asked& asked) { return bench_default_steps(asked.part); }},
+    Benchmark{"sampling-pictures", false, [](const Asked&) { return write_sampling_pictures(); }},
+    Benchmark{"verify", false, [](const Asked&) { return print_verification(); }},
+    Benchmark{"scenes", true, [](const Asked& asked) { return bench_scenes(asked.seconds); }},
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string_view what = argc > 1 ? argv[1] : "all";
-  const double seconds = argc > 2 ? std::atof(argv[2]) : 0.3;
+  Asked asked;
+  if (what == "list") {
+    for (const Benchmark& benchmark : benchmarks) fmt::print("{}\n", benchmark.name);
+    return 0;
+  }
+  if (argc > 2) asked = {std::atof(argv[2]), argv[2]};
   bool known = false, good = true;
-  if (seconds > 0)
+  if (asked.seconds > 0 || what == "errors" || what == "denoise" || what == "sampling" ||
+      what == "default-steps" || what == "pepper" || what == "quality")
     for (const Benchmark& benchmark : benchmarks)
       if (what == benchmark.name || (what == "all" && benchmark.in_all)) {
         known = true;
-        good &= benchmark.run(seconds);
+        good &= benchmark.run(asked);
       }
   if (known) return good ? 0 : 1;
-  fmt::print(stderr, "usage: tyndall-bench [NAME] [seconds a row, > 0]; NAME is all or one of");
+  fmt::print(stderr, "usage: tyndall-bench [NAME] [seconds a row, > 0]; NAME is all, list or one of");
   for (const Benchmark& benchmark : benchmarks) fmt::print(stderr, " {}", benchmark.name);
   fmt::print(stderr, "\n");
   return 2;

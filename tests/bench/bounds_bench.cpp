@@ -9,11 +9,11 @@
 
 #include "bench.h"
 #include "compile/compiled_scene.h"
-#include "compile/majorant_grid.h"
+#include "compile/majorant/majorant_grid.h"
 #include "render/render.h"
 #include "support/scene_builder.h"
-#include "vm/interval.h"
-#include "vm/machine.h"
+#include "vm/interval/interval.h"
+#include "vm/run/machine.h"
 #include "vm_shaders-inl.h"
 
 namespace tyndall {

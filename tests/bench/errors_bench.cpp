@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <string_view>
 #include <vector>
 
 #include "bench.h"
@@ -10,26 +12,47 @@
 
 namespace tyndall {
 
-bool bench_errors() {
+namespace {
+
+void print_row(const support::ErrorScene& row, const std::vector<support::ErrorRun>& runs) {
+  std::vector<double> reached, ratios;
+  double samples = 0;
+  for (const support::ErrorRun& run : runs) {
+    reached.push_back(run.reached);
+    ratios.push_back(run.told / run.reached);
+    samples += run.samples / static_cast<double>(runs.size());
+  }
+  std::sort(reached.begin(), reached.end());
+  std::sort(ratios.begin(), ratios.end());
+  const auto count = [&](auto&& is) { return std::count_if(runs.begin(), runs.end(), is); };
+  fmt::print("{:<28} {:5.2f} {:>6}/{} {:>6} {:>12.2f} {:5.2f} {:5.2f} {:>10.2f} {:>8.0f}\n", row.name,
+             row.target, count([](const support::ErrorRun& run) { return run.kept(); }), runs.size(),
+             count([](const support::ErrorRun& run) { return run.told <= 1 && run.reached > 1.1; }),
+             reached.front(), reached[reached.size() / 2], reached.back(), ratios[ratios.size() / 2],
+             samples);
+}
+
+}  // namespace
+
+bool bench_errors(std::string_view part) {
   constexpr int seeds = 20;
-  fmt::print("{:<28} {:>6} {:>8} {:>8} {:>24} {:>8}\n", "", "goal", "claimed", "kept",
-             "error/goal: least..most", "samples");
+  fmt::print("{:<28} {:>5} {:>9} {:>6} {:>24} {:>10} {:>8}\n", "", "goal", "within", "false",
+             "least, median, most/goal", "told/real", "samples");
   for (const support::ErrorScene& row : support::error_scenes) {
+    if (std::string_view(row.name).find(part) == std::string_view::npos) continue;
     const auto scene = read_scene(row.name, support::error_scene_text(row));
     if (!scene) return false;
-    const image::Image truth = support::error_reference(row, *scene);
-    int claimed = 0, kept = 0;
-    double samples = 0, least = 1e9, most = 0;
+    const support::ErrorReference truth = support::error_reference(row, *scene);
+    std::vector<support::ErrorRun> runs;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-      const support::ErrorRun run = support::error_run(row, *scene, truth, seed);
-      claimed += run.claimed;
-      kept += run.claimed && run.kept();
-      samples += run.samples / seeds;
-      least = std::min(least, run.reached);
-      most = std::max(most, run.reached);
+      runs.push_back(support::error_run(row, *scene, truth, seed));
+      const support::ErrorRun& run = runs.back();
+      if (!part.empty())
+        fmt::print("  seed {:>2}: reached {:.3f} told {:.3f} outliers {:.2f} samples {:.0f}\n", seed,
+                   run.reached, run.told, run.outlier_share, run.samples);
+      std::fflush(stdout);
     }
-    fmt::print("{:<28} {:6.2f} {:>5}/{} {:>5}/{} {:>13.2f}..{:<9.2f} {:8.0f}\n", row.name, row.target,
-               claimed, seeds, kept, claimed, least, most, samples);
+    print_row(row, runs);
   }
   return true;
 }

@@ -46,8 +46,8 @@ struct Sample {
 std::optional<scene::Scene> small_picture(const std::string& name) {
   auto scene = load_scene(std::string(TYNDALL_SOURCE_DIR "/scenes/") + name);
   if (!scene) return scene;
-  scene->settings.width = 64;
-  scene->settings.height = 36;
+  scene->settings.resolution.width = 64;
+  scene->settings.resolution.height = 36;
   return scene;
 }
 

@@ -8,40 +8,47 @@
 #include <vector>
 
 #include "bench.h"
-#include "compile/compiled_scene.h"
-#include "measured_child.h"
-#include "resolve/resolve.h"
-#include "syntax/parser.h"
+#include "measured_scene.h"
+#include "support/filled.h"
 
 namespace tyndall {
 
 namespace {
 
-constexpr std::string_view frame_text =
+const std::string frame_text =
     "camera perspective { from: (0, 0, 300) to: (0, 0, 0) }\nlight environment { radiance: 1 }\n";
 
 // Spheres made by a loop.
 std::string spheres_by_loop(int n) {
-  return fmt::format(
-      "{}for i in 0..<{} {{ sphere {{ center: (mod(i, 100), mod(floor(i / 100), 100), floor(i / 10000)) "
-      "radius: 0.3 }} }}\n",
-      frame_text, n);
+  return frame_text + support::filled(R"(
+for i in 0..<$N {
+  sphere { center: (mod(i, 100), mod(floor(i / 100), 100), floor(i / 10000)) radius: 0.3 }
+}
+)",
+                                      {{"N", n}});
 }
 
 std::string placements(int n) {
-  return fmt::format(
-      "{}object tree {{ sphere {{ center: (0, 1, 0) radius: 0.4 }} cylinder {{ from: (0, 0, 0) to: (0, 1, 0) "
-      "radius: 0.1 }} box {{ min: (-1, -0.1, -1) max: (1, 0, 1) }} }}\n"
-      "for i in 0..<{} {{ place tree {{ transform: translate((mod(i, 300), 0, floor(i / 300))) * "
-      "rotate_y(1deg * i) }} }}\n",
-      frame_text, n);
+  return frame_text + support::filled(R"(
+object tree {
+  sphere { center: (0, 1, 0) radius: 0.4 }
+  cylinder { from: (0, 0, 0) to: (0, 1, 0) radius: 0.1 }
+  box { min: (-1, -0.1, -1) max: (1, 0, 1) }
+}
+for i in 0..<$N { place tree { transform: translate((mod(i, 300), 0, floor(i / 300))) * rotate_y(1deg * i) } }
+)",
+                                      {{"N", n}});
 }
 
 std::string placed_lamps(int n) {
-  return fmt::format(
-      "{}object lamp {{ sphere {{ radius: 0.1 }} light point {{ position: (0, 1, 0) power: 1 }} }}\n"
-      "for i in 0..<{} {{ place lamp {{ transform: translate((mod(i, 300), 0, floor(i / 300))) }} }}\n",
-      frame_text, n);
+  return frame_text + support::filled(R"(
+object lamp {
+  sphere { radius: 0.1 }
+  light point { position: (0, 1, 0) power: 1 }
+}
+for i in 0..<$N { place lamp { transform: translate((mod(i, 300), 0, floor(i / 300))) } }
+)",
+                                      {{"N", n}});
 }
 
 // A mesh as numbers: nothing but points and triangles.
@@ -64,58 +71,13 @@ std::string statement_text(int spheres) {
   return text;
 }
 
-enum class Until { parsed, resolved, compiled };
-
-// Laps: lex, parse, resolve, compile.
-std::optional<Cost> cost_of(const std::string& text, Until until) {
-  return measured_in_child([&](Laps& laps) {
-    Sources sources;
-    Diagnostics diagnostics;
-    syntax::Symbols symbols;
-    const SourceId source = sources.add("bench.tyn", text);
-    laps.mark();
-    const syntax::TokenList tokens = syntax::lex(sources, source, diagnostics);
-    laps.mark();
-    const syntax::SyntaxTree tree = syntax::parse(sources, source, tokens, symbols, diagnostics);
-    laps.mark();
-    laps.measure_memory();
-    std::optional<compile::CompiledScene> world;
-    std::optional<scene::Scene> scene;
-    if (until != Until::parsed) {
-      scene = resolve::resolve(tree, sources, symbols, {}, diagnostics);
-      laps.mark();
-      laps.measure_memory();
-    }
-    if (diagnostics.has_errors()) {
-      fmt::print(stderr, "{}", render_text(diagnostics, sources, false));
-      return false;
-    }
-    if (until == Until::compiled) {
-      world.emplace(compile::compile(std::move(*scene)));
-      laps.mark();
-      laps.measure_memory();
-    }
-    return true;
-  });
-}
-
-constexpr double megabyte = 1e6;
-
-// Prints a number beside its target; false when it misses it.
-bool print_target(std::string_view what, double found, std::string_view unit, double target, bool at_most) {
-  const bool met = at_most ? found <= target : found >= target;
-  fmt::print("  {:<44}{:>10.2f} {:<5} {} {:g}: {}\n", what, found, unit, at_most ? "at most" : "at least",
-             target, met ? "met" : "MISSED");
-  return met;
-}
-
 // n, 2n, 4n: each doubling may cost no more than `2 * slack`.
 template <class Text>
 bool bench_growth(std::string_view title, Text&& text, int n, Until until, double bytes_each_at_most) {
   fmt::print("{}\n", title);
   std::vector<Cost> costs;
   for (const int times : {1, 2, 4}) {
-    const auto cost = cost_of(text(n * times), until);
+    const auto cost = cost_of_scene("bench.tyn", text(n * times), until);
     if (!cost) return false;
     costs.push_back(*cost);
     const auto& lap = cost->lap_cpu_seconds;
@@ -135,7 +97,7 @@ bool bench_growth(std::string_view title, Text&& text, int n, Until until, doubl
 
 bool bench_million() {
   fmt::print("1,000,000 spheres made by a loop\n");
-  const auto cost = cost_of(spheres_by_loop(1'000'000), Until::compiled);
+  const auto cost = cost_of_scene("bench.tyn", spheres_by_loop(1'000'000), Until::compiled);
   if (!cost) return false;
   bool met = print_target("CPU of all threads", cost->cpu_seconds, "s", 10, true);
   met &= print_target("peak memory", cost->peak_bytes / megabyte, "MB", 1000, true);
@@ -143,12 +105,25 @@ bool bench_million() {
   return met;
 }
 
+// The least of some runs of the program itself, loading it included.
+bool bench_check() {
+  fmt::print("`tyndall check` of a page of text\n");
+  double least = 1e30;
+  for (int i = 0; i < 11; ++i) {
+    const auto cost =
+        measured_program(TYNDALL_PROGRAM, {"check", TYNDALL_SOURCE_DIR "/tests/language/correct.tyn"});
+    if (!cost) return false;
+    least = std::min(least, *cost);
+  }
+  return print_target("CPU of a run", 1000 * least, "ms", 50, true);
+}
+
 bool bench_text(std::string_view title, const std::string& text) {
   fmt::print("{} ({:.1f} MB)\n", title, static_cast<double>(text.size()) / megabyte);
   std::vector<double> lex, parse, both;
   double bytes = 0;
   for (int i = 0; i < 5; ++i) {
-    const auto cost = cost_of(text, Until::parsed);
+    const auto cost = cost_of_scene("bench.tyn", text, Until::parsed);
     if (!cost) return false;
     lex.push_back(cost->lap_cpu_seconds[1]);
     parse.push_back(cost->lap_cpu_seconds[2]);
@@ -167,7 +142,8 @@ bool bench_text(std::string_view title, const std::string& text) {
 }  // namespace
 
 bool bench_language() {
-  bool met = bench_text("parsing: a mesh as numbers", mesh_text(400'000));
+  bool met = bench_check();
+  met &= bench_text("parsing: a mesh as numbers", mesh_text(400'000));
   met &= bench_text("parsing: spheres as statements", statement_text(300'000));
   met &= bench_million();
   met &= bench_growth("spheres by a loop", spheres_by_loop, 125'000, Until::compiled, 1000);

@@ -52,7 +52,7 @@ bool bench_lights() {
       render::RenderOptions options;
       options.first_sample = 16 * round;
       options.sample_count = 16;
-      const Cost cost = cost_of(worlds[i], options, references[i]);
+      const PictureCost cost = cost_of(worlds[i], options, references[i]);
       products[i].push_back(cost.product());
       seconds[i].push_back(cost.seconds);
     }

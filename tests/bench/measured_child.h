@@ -12,6 +12,8 @@
 #include <fstream>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tyndall {
 
@@ -27,13 +29,14 @@ struct Cost {
   double resident_bytes = 0;  // when the work ended, with what it still holds
 };
 
+inline double seconds(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
 // CPU seconds of this process so far.
 inline double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -91,6 +94,25 @@ inline std::optional<Cost> measured_in_child(const std::function<bool(Laps&)>& w
   waitpid(child, &status, 0);
   if (!received || status != 0) return std::nullopt;
   return cost;
+}
+
+// CPU seconds that a run of an executable takes, its output unseen; nothing when it fails.
+inline std::optional<double> measured_program(const std::string& executable,
+                                              const std::vector<std::string>& arguments) {
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child < 0) return std::nullopt;
+  if (child == 0) {
+    std::vector<char*> words{const_cast<char*>(executable.c_str())};
+    for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+    words.push_back(nullptr);
+    if (std::freopen("/dev/null", "w", stdout) != nullptr) execv(executable.c_str(), words.data());
+    std::_Exit(1);
+  }
+  int status = 0;
+  rusage usage{};
+  if (wait4(child, &status, 0, &usage) != child || status != 0) return std::nullopt;
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 }  // namespace tyndall

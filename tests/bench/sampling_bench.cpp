@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench.h"
@@ -14,27 +16,26 @@ namespace tyndall {
 
 namespace {
 
-using render::Distance, render::Transmittance;
+using render::Transmittance;
 
 // A small room of fog over a floor, with one lamp of three kinds and fog of two.
 constexpr const char* room = R"(
 let lamp = 0
-let uneven = false
+let heterogeneous = false
 let bounces = 0
 let width = 48
 let height = 27
 render { resolution: (width, height)  samples: 16  bounces: bounces  step: 0.1 }
 camera perspective { from: (0, 1.1, 5)  to: (0, 1, 0)  fov: 36deg }
 plane { point: (0, 0, 0)  normal: (0, 1, 0)  material: { base_color = 0.4 } }
-medium even() { density = 0.2  albedo = 0.95  phase = hg(0.3) }
+medium homogeneous() { density = 0.2  albedo = 0.95  phase = hg(0.3) }
 medium lumps() { density = 0.6 * smoothstep(0, 0.4, noise(p * 1.2))  albedo = 0.95  phase = hg(0.3) }
-volume { in: box { min: (-3, 0, -3)  max: (3, 3, 3) }  medium: if uneven then lumps else even }
+volume { in: box { min: (-3, 0, -3)  max: (3, 3, 3) }  medium: if heterogeneous then lumps else homogeneous }
 if lamp == 0 { light point { position: (0.4, 1.3, 0)  power: 40 } }
 if lamp == 1 { light sphere { center: (0.4, 1.3, 0)  radius: 0.15  power: 40 } }
 if lamp == 2 { light quad { center: (0.4, 1.9, 0)  u: (0.4, 0, 0)  v: (0, 0, 0.4)  power: 40 } }
 )";
 constexpr std::array lamps{"point", "sphere", "quad"};
-constexpr std::array distances{Distance::density, Distance::equiangular, Distance::mis, Distance::product};
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 std::optional<compile::CompiledScene> compiled(const std::string& name, const char* text,
@@ -43,9 +44,9 @@ std::optional<compile::CompiledScene> compiled(const std::string& name, const ch
   if (!scene) return std::nullopt;
   return compile::compile(std::move(*scene));
 }
-Overrides overrides(int lamp, bool uneven, int bounces) {
+Overrides overrides(int lamp, bool heterogeneous, int bounces) {
   return {{"lamp", std::to_string(lamp)},
-          {"uneven", uneven ? "true" : "false"},
+          {"heterogeneous", heterogeneous ? "true" : "false"},
           {"bounces", std::to_string(bounces)}};
 }
 
@@ -63,31 +64,59 @@ image::Image reference(const compile::CompiledScene& world, int samples,
   return render::render(world, options).film.image();
 }
 
-bool print_distances() {
+constexpr std::array sample_counts{16, 64, 256};
+constexpr std::size_t strategies = render::distance_infos.size();
+
+// What a strategy costs in one round: CPU seconds, which other programs change less than time does.
+PictureCost cpu_cost(const compile::CompiledScene& world, std::size_t strategy, int first, int count,
+                     const image::Image& truth) {
+  render::RenderOptions options;
+  options.distance = render::distance_infos[strategy].distance;
+  options.first_sample = first;
+  options.sample_count = count;
+  const std::clock_t before = std::clock();
+  const render::RenderResult result = render::render(world, options);
+  const double seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  return {seconds, image::compare(result.film.image(), truth).relative_mse};
+}
+
+void print_distance_row(const compile::CompiledScene& world, const image::Image& truth, int samples,
+                        const std::string& name) {
+  std::array<std::vector<double>, strategies> costs, errors, seconds;
+  for (int round = 0; round < 5; ++round)  // alternated
+    for (std::size_t i = 0; i < strategies; ++i) {
+      const PictureCost cost = cpu_cost(world, i, samples * round, samples, truth);
+      errors[i].push_back(cost.relmse);
+      seconds[i].push_back(cost.seconds);
+    }
+  fmt::print("| {} | {} |", name, samples);
+  for (std::size_t i = 0; i < strategies; ++i)
+    fmt::print(" {:.3g} |", 1 / (median(errors[i]) * median(seconds[i])));
+  const std::size_t last = strategies - 1;
+  fmt::print(" {:.2g} | {:.2f} |\n", median(errors[last]) * samples,
+             median(seconds[last]) / median(seconds[0]));
+  std::fflush(stdout);
+}
+
+// Rows whose names have `part` in them.
+bool print_distances(std::string_view part) {
   fmt::print(
-      "Efficiency, 1/(relMSE x seconds), medians of 5 at 48x27 with 16 samples\n\n"
-      "| lamp, fog | bounces | density | equi-angular | mis | product |\n"
-      "| --- | --- | --- | --- | --- | --- |\n");
+      "Efficiency, 1/(relMSE x CPU seconds), medians of 5 at 48x27; of the last strategy, relMSE x samples "
+      "and CPU seconds over those of the first\n\n| lamp, fog | bounces | samples |");
+  for (const render::DistanceInfo& mixture : render::distance_infos) fmt::print(" {} |", mixture.name);
+  fmt::print(" relMSE x samples | time |\n|");
+  for (std::size_t i = 0; i < strategies + 5; ++i) fmt::print(" --- |");
+  fmt::print("\n");
   for (const int bounces : {0, 1, 2, 12})
     for (int lamp = 0; lamp < 3; ++lamp)
-      for (const bool uneven : {false, true}) {
-        const auto world = compiled("room", room, overrides(lamp, uneven, bounces));
+      for (const bool heterogeneous : {false, true}) {
+        const std::string name = fmt::format("{}, {} | {}", lamps[static_cast<std::size_t>(lamp)],
+                                             heterogeneous ? "heterogeneous" : "homogeneous", bounces);
+        if (name.find(part) == std::string::npos) continue;
+        const auto world = compiled("room", room, overrides(lamp, heterogeneous, bounces));
         if (!world) return false;
-        const image::Image truth = reference(*world, bounces == 0 ? 1024 : 4096);
-        std::array<std::vector<double>, distances.size()> efficiencies;
-        for (int round = 0; round < 5; ++round)  // alternated
-          for (std::size_t i = 0; i < distances.size(); ++i) {
-            render::RenderOptions options;
-            options.distance = distances[i];
-            options.first_sample = 16 * round;
-            options.sample_count = 16;
-            efficiencies[i].push_back(1 / cost_of(*world, options, truth).product());
-          }
-        fmt::print("| {}, {} | {} |", lamps[static_cast<std::size_t>(lamp)], uneven ? "uneven" : "even",
-                   bounces);
-        for (auto& row : efficiencies) fmt::print(" {:.3g} |", median(row));
-        fmt::print("\n");
-        std::fflush(stdout);
+        const image::Image truth = reference(*world, bounces == 0 ? 16384 : 4096);
+        for (const int samples : sample_counts) print_distance_row(*world, truth, samples, name);
       }
   return true;
 }
@@ -173,7 +202,7 @@ bool write_picture(const std::string& name, const std::vector<image::Image>& pic
 
 }  // namespace
 
-bool bench_sampling() { return print_distances(); }
+bool bench_sampling(std::string_view part) { return print_distances(part); }
 bool bench_steps() { return print_transmittance(); }
 
 // Each lamp in each fog by the four strategies, and one room at 0, 1, 2 and 12 bounces.
@@ -183,17 +212,17 @@ bool write_sampling_pictures() {
     return overrides;
   };
   for (int lamp = 0; lamp < 3; ++lamp)
-    for (const bool uneven : {false, true}) {
-      const auto world = compiled("room", room, sized(overrides(lamp, uneven, 0)));
+    for (const bool heterogeneous : {false, true}) {
+      const auto world = compiled("room", room, sized(overrides(lamp, heterogeneous, 0)));
       if (!world) return false;
       std::vector<image::Image> pictures;
-      for (const Distance distance : distances) {
+      for (const render::DistanceInfo& mixture : render::distance_infos) {
         render::RenderOptions options;
-        options.distance = distance;
+        options.distance = mixture.distance;
         pictures.push_back(render::render(*world, options).film.image());
       }
-      const std::string name =
-          fmt::format("sampling-{}-{}", lamps[static_cast<std::size_t>(lamp)], uneven ? "uneven" : "even");
+      const std::string name = fmt::format("sampling-{}-{}", lamps[static_cast<std::size_t>(lamp)],
+                                           heterogeneous ? "heterogeneous" : "homogeneous");
       if (!write_picture(name, pictures, 2)) return false;
     }
   std::vector<image::Image> pictures;

@@ -79,7 +79,7 @@ bool bench_scattering() {
       if (full) truth = converged;
       options.first_sample = 0;
       options.sample_count = 16;
-      const Cost cost = cost_of(world, options, converged);
+      const PictureCost cost = cost_of(world, options, converged);
       if (full) full_cost = cost.product();
       const image::Comparison against = image::compare(converged, truth);
       fmt::print("{:<10} {:<22} {:8.2f} {:11.1f}% {:9.1f}% {:8.4f} ({:.2f})\n", one.name, variant.name,

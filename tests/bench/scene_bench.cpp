@@ -19,8 +19,8 @@ bool bench_scenes(double seconds) {
   for (const char* name : names) {
     std::optional<scene::Scene> scene = load_scene(fmt::format("{}/scenes/{}.tyn", TYNDALL_SOURCE_DIR, name));
     if (!scene) return false;
-    scene->settings.width = 160;
-    scene->settings.height = 90;
+    scene->settings.resolution.width = 160;
+    scene->settings.resolution.height = 90;
     worlds.push_back(compile::compile(std::move(*scene)));
   }
   std::array<std::vector<double>, names.size()> rates, lanes;

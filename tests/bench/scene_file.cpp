@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "denoise/denoise.h"
 #include "image/compare.h"
 #include "resolve/resolve.h"
 #include "syntax/parser.h"
@@ -34,8 +35,17 @@ std::optional<scene::Scene> load_scene(const std::string& path) {
   return read_scene(path, {std::istreambuf_iterator<char>(file), {}});
 }
 
-Cost cost_of(const compile::CompiledScene& world, const render::RenderOptions& options,
-             const image::Image& reference) {
+image::Image picture_of(const image::Image& image) {
+  const auto channels = denoise::undenoised_channels(image).value();
+  image::Image picture{image.width, image.height, {"R", "G", "B"}, {}};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (const std::size_t channel : channels) picture.pixels.push_back(image.at(x, y, channel));
+  return picture;
+}
+
+PictureCost cost_of(const compile::CompiledScene& world, const render::RenderOptions& options,
+                    const image::Image& reference) {
   const render::RenderResult result = render::render(world, options);
   return {result.statistics.seconds, image::compare(result.film.image(), reference).relative_mse};
 }
@@ -46,7 +56,7 @@ TwoCosts alternated_costs(const compile::CompiledScene& world, const render::Ren
   far.first_sample = 1 << 16;
   far.sample_count = reference_samples;
   const image::Image reference = render::render(world, far).film.image();
-  std::array<std::array<Cost, 5>, 2> costs;
+  std::array<std::array<PictureCost, 5>, 2> costs;
   for (std::size_t round = 0; round < costs[0].size(); ++round)
     for (std::size_t way = 0; way < 2; ++way) {
       render::RenderOptions options = way == 0 ? first : second;
@@ -56,7 +66,7 @@ TwoCosts alternated_costs(const compile::CompiledScene& world, const render::Ren
     }
   for (auto& list : costs)
     std::sort(list.begin(), list.end(),
-              [](const Cost& a, const Cost& b) { return a.product() < b.product(); });
+              [](const PictureCost& a, const PictureCost& b) { return a.product() < b.product(); });
   return {costs[0][2], costs[1][2]};
 }
 

@@ -19,19 +19,22 @@ std::optional<scene::Scene> read_scene(const std::string& name, std::string text
                                        std::vector<std::pair<std::string, std::string>> overrides = {});
 std::optional<scene::Scene> load_scene(const std::string& path);
 
+// R, G and B of a film's image, not denoised.
+image::Image picture_of(const image::Image& image);
+
 // Time and error of a picture: time times the mean squared relative error against a reference is what a way
 // of rendering costs, whatever its number of samples.
-struct Cost {
+struct PictureCost {
   double seconds = 0, relmse = 0;
   double product() const { return seconds * relmse; }
 };
-Cost cost_of(const compile::CompiledScene& world, const render::RenderOptions& options,
-             const image::Image& reference);
+PictureCost cost_of(const compile::CompiledScene& world, const render::RenderOptions& options,
+                    const image::Image& reference);
 
 // Two ways of rendering one picture: of five rounds each, alternated, the one in the middle by product().
 // Each round has other samples, `samples` a pixel; the reference is of the second way.
 struct TwoCosts {
-  Cost first, second;
+  PictureCost first, second;
   double gain() const { return first.product() / second.product(); }
 };
 TwoCosts alternated_costs(const compile::CompiledScene& world, const render::RenderOptions& first,

@@ -3,7 +3,7 @@
 
 namespace tyndall {
 
-// Every way through a medium against every other, on six scenes. False when two disagree.
+// All methods compared with each other, on six scenes. False when two disagree.
 bool print_methods();
 
 }  // namespace tyndall

@@ -11,8 +11,8 @@
 
 #include "base/check.h"
 #include "bench.h"
-#include "vm/builder.h"
-#include "vm/machine.h"
+#include "vm/builder/builder.h"
+#include "vm/run/machine.h"
 #include "vm_by_hand.h"
 #include "vm_shaders-inl.h"
 

@@ -1,5 +1,6 @@
 // Runs that end before they are done: by signals, limits of the system and of time.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -8,7 +9,7 @@
 #include "image/image.h"
 
 namespace tyndall::test {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 
@@ -29,10 +30,45 @@ class Ends : public CliTest {
 TEST_F(Ends, SignalsSaveWhatThereIs) {
   for (const int signal : {SIGTERM, SIGHUP, SIGXCPU}) {
     fs::remove(path("a.exr"));
-    const Outcome outcome = tyndall({"render", scene(), "-o", path("a.exr"), "--samples", "100000000"},
-                                    {.interrupt_after_seconds = 0.5, .signal = signal});
+    fs::remove(path("a.exr.checkpoint"));
+    const Outcome outcome = tyndall(
+        {"render", scene(), "-o", path("a.exr"), "--samples", "100000000", "--checkpoint-interval", "0.1"},
+        {.interrupt_after_seconds = 1e-3, .signal = signal, .wait_for = appears("a.exr.checkpoint")});
     EXPECT_EQ(outcome.status, 130) << signal << outcome.err;
     EXPECT_TRUE(image::read(path("a.exr")).image) << signal;
+  }
+}
+
+// The picture goes to a pipe that nothing reads, which is waited for: the second signal ends that.
+TEST_F(Ends, ASecondSignalEndsAtOnce) {
+  ASSERT_EQ(::mkfifo(path("pipe.exr").c_str(), 0600), 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const Outcome outcome = tyndall({"render", scene(), "-o", path("pipe.exr"), "--samples", "100000000"},
+                                    {.interrupt_after_seconds = 0.15, .signal = signal, .times = 2});
+    EXPECT_EQ(outcome.status, 128 + signal) << outcome.err;
+    EXPECT_EQ(outcome.err.find("nothing reads"), std::string::npos) << outcome.err;
+  }
+}
+
+// One tile, which takes some seconds: nothing of it counts, and a good picture is not replaced by a black
+// one.
+TEST_F(Ends, WithoutAnySampleNothingIsWritten) {
+  const std::string old = "an earlier picture";
+  for (const bool by_signal : {true, false}) {
+    file("a.exr", old);
+    std::vector<std::string> command{"render",          scene(), "-o",      path("a.exr"),
+                                     "--resolution",    "16x16", "--step",  "0.002",
+                                     "--light-samples", "384",   "--stats", path("a.json")};
+    if (!by_signal) command.insert(command.end(), {"--time-limit", "0.3"});
+    const Outcome outcome =
+        tyndall(command, {.interrupt_after_seconds = by_signal ? 0.6 : 0.0, .signal = SIGTERM});
+    EXPECT_EQ(outcome.status, by_signal ? 130 : 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("a.exr' was not written: the run ended before any pixel had a sample"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(read_file(path("a.exr")), old);
+    EXPECT_EQ(nlohmann::json::parse(read_file(path("a.json")))["samples"], 0);
+    expect_no_rest();
   }
 }
 
@@ -49,9 +85,9 @@ TEST_F(Ends, EarlySignalsLeaveNoRest) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     for (int i = 0; i < 8; ++i) {
       fs::remove(path("a.exr"));
-      const Outcome outcome =
-          tyndall({"render", scene(), "-o", path("a.exr"), "--resolution", "300x200", "--samples", "1"},
-                  {.interrupt_after_seconds = 0.001 + 0.008 * i, .signal = signal});
+      const Outcome outcome = tyndall(
+          {"render", scene(), "-o", path("a.exr"), "--resolution", "300x200", "--samples", "1"},
+          {.interrupt_after_seconds = 0.001 + 0.008 * i, .signal = signal, .wait_until_caught = false});
       EXPECT_TRUE(outcome.status == 0 || outcome.status == 130 || outcome.status == 128 + signal)
           << outcome.status << outcome.err;
       EXPECT_TRUE(fs::exists(path("a.exr")) || outcome.status != 0);
@@ -115,5 +151,5 @@ TEST_F(Ends, ATimeLimitEndsTheFirstPassToo) {
     }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::test

@@ -6,7 +6,7 @@
 #include "cli/run_program.h"
 
 namespace tyndall::test {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 using Format = CliTest;
@@ -92,5 +92,5 @@ TEST_F(Format, ReplacesPlainFilesOnly) {
   EXPECT_NE(outcome.err.find("it is no plain file"), std::string::npos) << outcome.err;
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::test

@@ -7,7 +7,7 @@
 #include "image/image.h"
 
 namespace tyndall::test {
-namespace {
+namespace UNNAMED {
 
 using Look = CliTest;
 
@@ -148,5 +148,5 @@ TEST_F(Look, ProfilesNameTheDearestLine) {
   EXPECT_NE(rendered.out.find("let dust"), std::string::npos) << rendered.out;
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::test

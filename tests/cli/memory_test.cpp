@@ -5,7 +5,7 @@
 #include "cli/run_program.h"
 
 namespace tyndall::test {
-namespace {
+namespace UNNAMED {
 
 using Memory = CliTest;
 
@@ -51,5 +51,27 @@ TEST_F(Memory, IsNotTakenForMillionsOfBrackets) {
       << outcome.err.substr(0, 1000);
 }
 
-}  // namespace
+// Words, marks, comments and strings are counted as they are read; where there are too many, or errors
+// without end, nothing is made of them.
+TEST_F(Memory, IsNotTakenForMillionsOfWords) {
+  if (reserves_all_addresses) GTEST_SKIP() << "the sanitizer's own memory is beyond any limit";
+  const std::pair<std::string_view, std::string_view> cases[] = {
+      {"@", "1:1: error: '@' means nothing here"},
+      {"<", "1:1: error: '<<' means nothing here"},
+      {"< ", "more than 12000000 words, marks and comments"},
+      {"0..", "more than 12000000 words, marks and comments"},
+      {"\"", "1:1: error: a string has one quote on each side"},
+      {"\"\" ", "more than 1000000 strings"},
+      {"/**/", "more than 12000000 words, marks and comments"},
+  };
+  for (const auto& [word, message] : cases) {
+    std::string text;
+    while (text.size() < 50'000'000) text += word;
+    const Outcome outcome = tyndall_within(700, "check " + file("a.tyn", text));
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << word << outcome.err.substr(0, 1000);
+  }
+}
+
+}  // namespace UNNAMED
 }  // namespace tyndall::test

@@ -1,6 +1,7 @@
 // Numbers on the command line: every option of the tables reads them alike.
 #include "tools/numbers.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -8,9 +9,10 @@
 
 #include "cli/run_program.h"
 #include "image/image.h"
+#include "scene/render_settings.h"
 
 namespace tyndall::test {
-namespace {
+namespace UNNAMED {
 
 using Numbers = CliTest;
 
@@ -40,8 +42,18 @@ std::string filled(std::string_view form, Number&& number) {
 // A command in which the option stands, with what it needs beside.
 std::vector<std::string> command_with(const std::string& option, const std::string& value,
                                       const std::string& scene, const std::string& picture) {
-  if (option == "--max") return {"compare", picture, picture, option, value};
+  if (option == "--max" || option == "--significance" || option == "--pixels-per-degree")
+    return {"compare", picture, picture, option, value};
+  if (option == "--white-balance" || option == "--bloom")
+    return {"develop", picture, option, value, "-o", picture + ".developed.exr"};
   if (option == "--slice") return {"inspect", scene, "--medium", "cloud", option, value, "-o", picture};
+  if (option == "--columns" || option == "--width")
+    return {"sheet", picture, "-o", picture + ".sheet.png", option, value};
+  if (option == "--seeds" || option == "--reference-error")
+    return {"measure", scene, option, value, "--budget", "1s", "--quiet"};
+  if (option == "--split" || option == "--chunk")
+    return {"plan", scene, "-o", picture, "--samples", "16", option, value};
+  if (option == "--cpus") return {"plan", scene, "-o", picture, "--slurm", option, value};
   std::vector<std::string> command{"render", scene, "-o", picture, option, value};
   const auto add = [&](std::vector<std::string> more) {
     command.insert(command.end(), more.begin(), more.end());
@@ -65,7 +77,7 @@ const std::string no_numbers[] = {"0x12", "", "3 ", " 3", "٣", "nan", "inf", "-
 
 TEST_F(Numbers, WholeOnesAreDecimalAndWithinTheirRange) {
   const std::string scene = file("a.tyn", small_scene());
-  for (const tools::WholeOption& option : tools::whole_options) {
+  for (const tools::WholeOption& option : tools::whole_options()) {
     const std::string name(option.name);
     const std::string range = "from " + std::to_string(option.least) + " to " + std::to_string(option.most);
     const auto refuse = [&](const std::string& number) {
@@ -74,33 +86,44 @@ TEST_F(Numbers, WholeOnesAreDecimalAndWithinTheirRange) {
     };
     for (const std::string& number : no_numbers) refuse(number);
     for (const std::string number : {"1e3", "3.0", "99999999999999999999999", "-1000000001"}) refuse(number);
-    const std::string zeros = filled(option.form, [](int i) { return "0" + std::to_string(8 + i); });
+    const int good = static_cast<int>(std::max<std::int64_t>(8, option.least));
+    const std::string zeros = filled(option.form, [&](int i) { return "0" + std::to_string(good + i); });
     const Outcome outcome = tyndall(command_with(name, zeros, scene, path("a.png")));
     EXPECT_EQ(outcome.status, 0) << name << " " << zeros << "\n" << outcome.err;
   }
-  EXPECT_EQ(file_count(), 2u);
+  EXPECT_EQ(file_count(), 3u) << "the scene, a picture and a sheet";
 }
 
 TEST_F(Numbers, OthersAreDecimalAndFinite) {
   const std::string scene = file("a.tyn", small_scene());
-  ASSERT_EQ(tyndall({"render", scene, "-o", path("a.exr")}).status, 0);
-  for (const tools::RealOption& option : tools::real_options) {
+  const auto render = [&] {
+    return tyndall({"render", scene, "-o", path("a.exr"), "--aov", "variance"}).status;
+  };
+  ASSERT_EQ(render(), 0);
+  for (const tools::RealOption& option : tools::real_options()) {
+    if (option.name == "--significance") {
+      ASSERT_EQ(render(), 0) << "the options before it took the picture";
+    }
     const std::string name(option.name), before = name == "--slice" ? "z=" : "";
     const auto refuse = [&](const std::string& value) {
       expect_refused(command_with(name, value, scene, path("a.exr")), name, value,
-                     "wants " + tools::wanted(option));
+                     "wants " + std::string(option.wanted));
     };
     for (const std::string& number : no_numbers) refuse(before + number);
     refuse(before + "1e999");
-    if (name != "--slice") refuse("-1");
+    if (name != "--slice" && name != "--frames" && name != "--exposure") refuse("-1");
     if (!option.takes_zero) refuse("0");
-    for (const std::string number : {"00.5", "5e-1"}) {
+    const std::vector<std::string> good = name == "--frames" ? std::vector<std::string>{"07", "-1"}
+                                          : name == "--white-balance"
+                                              ? std::vector<std::string>{"03200", "3.2e3K", "1,5e-1,00.5"}
+                                              : std::vector<std::string>{"00.5", "5e-1"};
+    for (const std::string& number : good) {
       const Outcome outcome = tyndall(command_with(name, before + number, scene, path("a.exr")));
       EXPECT_EQ(outcome.status, 0) << name << " " << number << "\n" << outcome.err;
     }
   }
-  for (const std::string step :
-       {"auto(0x1%)", "auto(nan%)", "auto(-1%)", "auto(100%)", "auto(1)", "auto()", "auto(1%"})
+  for (const std::string step : {"adaptive", "adaptive(0)", "adaptive(100%)", "auto(0x1%)", "auto(nan%)",
+                                 "auto(-1%)", "auto(100%)", "auto(1)", "auto()", "auto(1%"})
     expect_refused({"render", scene, "-o", path("a.exr"), "--step", step}, "--step", step, "auto(1%)");
 }
 
@@ -108,8 +131,8 @@ TEST_F(Numbers, ZerosInFrontMeanNothing) {
   const std::string scene = file("a.tyn", small_scene() + "animation { fps: 24 frames: 1..48 }\n");
   const std::pair<std::string, std::string> frames[] = {{"0012", "12"}, {"08", "8"}, {"1", "1"}};
   for (const auto& [text, number] : frames) {
-    const Outcome outcome =
-        tyndall({"render", scene, "-o", path("a.exr"), "--frame", text, "--seed", text, "--samples", text});
+    const Outcome outcome = tyndall({"render", scene, "-o", path("a.exr"), "--frame", text, "--seed", text,
+                                     "--samples", text, "--bounces", "32"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
     EXPECT_EQ(metadata(path("a.exr"), "tyndall:frame"), number);
@@ -127,15 +150,17 @@ TEST_F(Numbers, TheEndsOfTheRangeOfSeedsAreSeeds) {
 }
 
 TEST_F(Numbers, OneLimitForSceneAndCommandLine) {
-  const std::string scene = file("a.tyn", small_scene());
-  const std::pair<std::string, std::string> limits[] = {
-      {"samples", "samples"}, {"light_samples", "light-samples"}, {"bounces", "bounces"}};
-  for (const auto& [parameter, option] : limits) {
-    const tools::WholeOption& row = tools::whole_option("--" + option);
-    const auto in_scene = [&, parameter = parameter](std::uint64_t value) {
-      return tyndall(
-          {"check", file("b.tyn", "render { " + parameter + ": " + std::to_string(value) +
-                                      " }\ncamera spherical { from: (0, 0, 5) to: (0, 0, 0) }\n")});
+  std::size_t settings = 0;
+  scene::RenderSettings::fields([&](auto, const scene::SettingInfo& info) {
+    if (!info.range || info.name == "resolution") return;
+    ++settings;
+    const tools::WholeOption& row = tools::whole_option(info.option);
+    const auto in_scene = [&](std::uint64_t value) {
+      constexpr auto text = R"(
+render {{ {}: {} }}
+camera spherical {{ from: (0, 0, 5)  to: (0, 0, 0) }}
+)";
+      return tyndall({"check", file("b.tyn", fmt::format(text, info.name, value))});
     };
     EXPECT_EQ(in_scene(row.most).status, 0) << in_scene(row.most).err;
     EXPECT_EQ(in_scene(row.most + 1).status, 1);
@@ -143,14 +168,16 @@ TEST_F(Numbers, OneLimitForSceneAndCommandLine) {
                   .err.find("from " + std::to_string(row.least) + " to " + std::to_string(row.most)),
               std::string::npos)
         << in_scene(row.most + 1).err;
-  }
+  });
+  EXPECT_GE(settings, 3u);
 }
 
 TEST_F(Numbers, TheLastOfARepeatedOptionCounts) {
   const std::string scene = file("a.tyn", small_scene());
-  for (const tools::WholeOption& option : tools::whole_options) {
-    const std::string name(option.name),
-        value = filled(option.form, [](int i) { return std::to_string(i + 1); });
+  for (const tools::WholeOption& option : tools::whole_options()) {
+    const std::string name(option.name), value = filled(option.form, [&](int i) {
+                                           return std::to_string(i + std::max<std::int64_t>(1, option.least));
+                                         });
     std::vector<std::string> command = command_with(name, value, scene, path("a.png"));
     command.insert(command.end(), {name, value});
     const Outcome outcome = tyndall(command);
@@ -189,10 +216,11 @@ TEST_F(Numbers, ListsGoOn) {
 }
 
 TEST_F(Numbers, HelpTellsTheRanges) {
-  const std::string help = tyndall({"render", "--help"}).out;
-  for (const tools::WholeOption& option : tools::whole_options)
+  const std::string help =
+      tyndall({"render", "--help"}).out + tyndall({"plan", "--help"}).out + tyndall({"sheet", "--help"}).out;
+  for (const tools::WholeOption& option : tools::whole_options())
     EXPECT_NE(help.find(std::to_string(option.most) + ")"), std::string::npos) << option.name << "\n" << help;
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::test

@@ -9,7 +9,7 @@
 #include "image/image.h"
 
 namespace tyndall::test {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 
@@ -104,6 +104,16 @@ TEST_F(Outputs, LinksAreWrittenThrough) {
   EXPECT_TRUE(fs::exists(path("big/slice.exr")));
 }
 
+TEST_F(Outputs, LinksInACircleAreTold) {
+  fs::create_symlink("b.exr", path("a.exr"));
+  fs::create_symlink("a.exr", path("b.exr"));
+  fs::create_symlink("self.json", path("self.json"));
+  expect_refused(scene(), {"-o", path("a.exr")}, "a.exr': its symbolic links lead in a circle");
+  expect_refused(scene(), {"-o", path("c.exr"), "--stats", path("self.json")}, "lead in a circle");
+  EXPECT_TRUE(fs::is_symlink(path("a.exr")));
+  EXPECT_TRUE(fs::is_symlink(path("self.json")));
+}
+
 TEST_F(Outputs, PermissionsStay) {
   const auto mode_of = [](const std::string& path) {
     struct stat status {};
@@ -183,18 +193,18 @@ TEST_F(Outputs, DevicesAreWrittenThrough) {
 TEST_F(Outputs, AFailureOfStrictWritesNoPicture) {
   const std::string bad = file("bad.tyn", R"(render { resolution: (4, 4)  samples: 1  step: 0.2 }
 camera perspective { from: (0, 0, 5)  to: (0, 0, 0) }
-volume { in: sphere {}  medium: { density = p.x  albedo = 0.9 } }
+sphere { material: { base_color = 0.5  roughness = 2 * abs(p.x) } }
 light environment { radiance: 1 }
 )");
   const Outcome outcome =
       tyndall({"render", bad, "-o", path("a.png"), "--strict", "--stats", path("a.json")});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find("a.png' was not written"), std::string::npos) << outcome.err;
-  EXPECT_EQ(outcome.err.find("samples a pixel"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("samples per pixel"), std::string::npos) << outcome.err;
   EXPECT_FALSE(fs::exists(path("a.png")));
   EXPECT_FALSE(nlohmann::json::parse(read_file(path("a.json")))["bad_values"].empty());
   EXPECT_EQ(tyndall({"render", bad, "-o", path("a.png")}).status, 0);
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::test

@@ -16,7 +16,13 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+#if defined(__SANITIZE_ADDRESS__)
+constexpr auto patience = std::chrono::minutes(10);
+constexpr double slower = 4;
+#else
 constexpr auto patience = std::chrono::minutes(2);
+constexpr double slower = 1;
+#endif
 
 // A file that stands for a standard stream: what was said is read from it while the program runs.
 class StreamFile {
@@ -50,6 +56,15 @@ class StreamFile {
   ::_exit(127);
 }
 
+// Whether a process has a handler for a signal, if it can have one: the mask SigCgt of its status (man 5 proc).
+bool catches(pid_t process, int signal) {
+  if (signal == SIGKILL) return true;
+  const std::string status = read_file("/proc/" + std::to_string(process) + "/status");
+  const std::size_t place = status.find("SigCgt:");
+  if (place == std::string::npos) return false;
+  return std::stoull(status.substr(place + 7), nullptr, 16) >> (signal - 1) & 1;
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
@@ -64,6 +79,7 @@ Outcome run(const std::string& executable, const std::vector<std::string>& argum
   const pid_t child = ::fork();
   if (child == 0) become(executable, arguments, options.environment, out.descriptor(), err.descriptor());
 
+  int sent = 0;
   bool interrupted = options.interrupt_after_seconds <= 0;
   auto may_interrupt_since = Clock::time_point::max();
   int state = 0;
@@ -72,12 +88,17 @@ Outcome run(const std::string& executable, const std::vector<std::string>& argum
     if (now - begin > patience) ::kill(child, SIGKILL);
     if (!interrupted) {
       if (may_interrupt_since == Clock::time_point::max() &&
-          (options.wait_for_on_err.empty() || err.text().find(options.wait_for_on_err) != std::string::npos))
+          (!options.wait_until_caught || catches(child, options.signal)) &&
+          (options.wait_for_on_err.empty() ||
+           err.text().find(options.wait_for_on_err) != std::string::npos) &&
+          (!options.wait_for || options.wait_for()))
         may_interrupt_since = now;
       if (may_interrupt_since != Clock::time_point::max() &&
-          now - may_interrupt_since > std::chrono::duration<double>(options.interrupt_after_seconds)) {
+          now - may_interrupt_since >
+              std::chrono::duration<double>(slower * options.interrupt_after_seconds)) {
         ::kill(child, options.signal);
-        interrupted = true;
+        interrupted = ++sent == options.times;
+        may_interrupt_since = now;
       }
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,13 @@ struct Outcome {
 
 // What may be done to a run from outside.
 struct RunOptions {
-  double interrupt_after_seconds = 0;  // send the signal then; 0: never
+  // Send the signal then, four times later with sanitizers; 0: never.
+  double interrupt_after_seconds = 0;
   int signal = SIGINT;
+  int times = 1;                           // … again after as long, with sanitizers too
   std::string wait_for_on_err{};           // … but not before this text is on standard error
+  std::function<bool()> wait_for{};        // … nor before this says so, which is asked every few ms
+  bool wait_until_caught = true;           // … nor before the program has a handler for the signal
   std::vector<std::string> environment{};  // NAME=VALUE, added
 };
 
@@ -40,6 +45,10 @@ class CliTest : public testing::Test {
   // Writes a file there and gives its path.
   std::string file(const std::string& name, const std::string& text) const;
   std::size_t file_count() const;
+  // For RunOptions::wait_for: whether a file of that name is there.
+  std::function<bool()> appears(const std::string& name) const {
+    return [file = path(name)] { return std::filesystem::exists(file); };
+  }
 
  private:
   std::filesystem::path directory_;

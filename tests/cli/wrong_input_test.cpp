@@ -6,7 +6,7 @@
 #include "cli/run_program.h"
 
 namespace tyndall::test {
-namespace {
+namespace UNNAMED {
 
 using WrongInput = CliTest;
 
@@ -92,7 +92,7 @@ TEST_F(WrongInput, DivisionByZero) {
 TEST_F(WrongInput, UnwritableOutputIsToldBeforeRendering) {
   // So many samples that rendering first would run into the test's time limit.
   const std::string scene = file("a.tyn", small_scene());
-  for (const std::string output : {"/proc/a.png", "/no/such/directory/a.png", "a.jpeg", "picture", "/tmp/"}) {
+  for (const std::string output : {"/proc/a.png", "/no/such/directory/a.png", "a.gif", "picture", "/tmp/"}) {
     const Outcome outcome = tyndall({"render", scene, "-o", output, "--samples", "100000000"});
     EXPECT_EQ(outcome.status, 1) << output;
     EXPECT_NE(outcome.err.find(output), std::string::npos) << outcome.err;
@@ -153,6 +153,8 @@ TEST_F(WrongInput, MisuseIsStatusTwo) {
       {"render", scene, "-o", path("a.png"), "--transmittance", "guess"},
       {"render", scene, "-o", path("a.png"), "--method", "magic"},
       {"render", scene, "-o", path("a.png"), "--multiple-scattering", "some"},
+      {"render", scene, "-o", path("a.png"), "--clamp", "0"},
+      {"render", scene, "-o", path("a.png"), "--clamp", "1,2,3"},
       {"render", scene, "-o", path("a.png"), "--multiple-scattering", "approximate", "--transmittance",
        "ratio"},
       {"render", scene, "-o", path("a.png"), "--threads", "0"},
@@ -178,7 +180,8 @@ TEST_F(WrongInput, MisuseIsStatusTwo) {
 
 TEST_F(WrongInput, LightSamplesThatAMethodCannotTakeAreWarnedOf) {
   const std::vector<std::string> render = {
-      "render", file("a.tyn", small_scene()), "-o", path("a.png"), "--light-samples", "4", "--method"};
+      "render",  file("a.tyn", small_scene()), "-o", path("a.png"), "--light-samples", "4", "--bounces", "32",
+      "--method"};
   const auto error_of = [&](const std::string& method) {
     std::vector<std::string> arguments = render;
     arguments.push_back(method);
@@ -217,5 +220,5 @@ TEST_F(WrongInput, AFullStandardOutputIsAnError) {
   EXPECT_REFUSED(outcome, "standard output");
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::test

@@ -5,40 +5,45 @@
 
 #include <string>
 
+#include "support/filled.h"
 #include "support/scene_text.h"
 
 namespace tyndall::compile {
-namespace {
+namespace UNNAMED {
 
 const std::string camera = "camera perspective { from: (0, 0, 5)  to: (0, 0, 0) }\n";
 
-// Calls of every field of a lattice, of a place PLACE.
+// Calls of every field of a lattice.
 const std::pair<const char*, const char*> fields[] = {
-    {"noise", "noise(PLACE)"},         {"noise", "noise(PLACE, time: time)"},
-    {"fbm", "fbm(PLACE, octaves: 2)"}, {"turbulence", "turbulence(PLACE, time: time, octaves: 2)"},
-    {"ridged", "ridged(PLACE)"},       {"cells", "cells(PLACE)"},
-    {"cells", "cells(PLACE, time: time)"},   {"curl", "curl(PLACE).y"},
-    {"curl", "curl(PLACE, time: time).x"},   {"checker", "(if checker((PLACE).xy) then 1 else 0)"},
+    {"noise", "noise($PLACE)"},
+    {"noise", "noise($PLACE, time: time)"},
+    {"fbm", "fbm($PLACE, octaves: 2)"},
+    {"turbulence", "turbulence($PLACE, time: time, octaves: 2)"},
+    {"ridged", "ridged($PLACE)"},
+    {"cells", "cells($PLACE)"},
+    {"cells", "cells($PLACE, time: time)"},
+    {"curl", "curl($PLACE).y"},
+    {"curl", "curl($PLACE, time: time).x"},
+    {"checker", "(if checker(($PLACE).xy) then 1 else 0)"},
 };
-
-std::string call(std::string text, const std::string& place) {
-  return text.replace(text.find("PLACE"), 5, place);
-}
 
 TEST(CoarseFields, EveryMemberOfTheFamilyIsTold) {
   std::size_t ops = 0;
-  for (int op = 0; op < vm::op_count; ++op) ops += vm::op_info(static_cast<vm::Op>(op)).has(vm::OpTrait::lattice);
+  for (int op = 0; op < vm::op_count; ++op)
+    ops += vm::op_info(static_cast<vm::Op>(op)).has(vm::OpTrait::lattice);
   EXPECT_EQ(ops, 17u) << "a new member wants a row above";
   for (const auto& [name, text] : fields)
     for (const bool material : {false, true})
       for (const auto& [place, coarse] :
            {std::pair{"p * 3", false}, {"p * 1e5", false}, {"p * 1e7", true}, {"P + (3e6, 0, 0)", true}}) {
-        const std::string value = "0.5 + 0.1 * " + call(text, place);
-        const CompiledScene world = compile(
-            support::scene_of(camera + (material ? "sphere { material: { base_color = " + value + " } }\n"
-                                                 : "volume { in: sphere {}  medium: { density = " + value +
-                                                       "  albedo = 0.5 } }\n")));
-        ASSERT_EQ(world.coarse_fields.size(), coarse) << value;
+        const std::string call = support::filled(text, {{"PLACE", place}});
+        const CompiledScene world = compile(support::scene_of(
+            camera +
+            support::filled(
+                material ? "sphere { material: { base_color = 0.5 + 0.1 * $CALL } }"
+                         : "volume { in: sphere {}  medium: { density = 0.5 + 0.1 * $CALL  albedo = 0.5 } }",
+                {{"CALL", call}})));
+        ASSERT_EQ(world.coarse_fields.size(), coarse) << call;
         if (!coarse) continue;
         EXPECT_EQ(world.coarse_fields[0].name, name);
         EXPECT_GT(world.coarse_fields[0].reach, coarse_place);
@@ -54,5 +59,5 @@ TEST(CoarseFields, APlaneIsNotLookedAt) {
   EXPECT_TRUE(world.coarse_fields.empty());
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::compile

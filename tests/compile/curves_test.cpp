@@ -1,5 +1,5 @@
 // Rays against tubes along splines: held against spheres strung densely along the same splines.
-#include "compile/curves.h"
+#include "compile/geometry/curves.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 
 #include "base/numerics.h"
 #include "compile/compiled_scene.h"
-#include "compile/strand_groups.h"
+#include "compile/geometry/merge_curves.h"
 
 namespace tyndall::compile {
-namespace {
+namespace UNNAMED {
 
 // How far pieces may lie from the spline, in radii: twice what the cutting allows, as the radius goes
 // straight too.
@@ -113,7 +113,7 @@ TEST(Curves, StraightOnesAreCylinders) {
   const CompiledCurves curves =
       compiled(strand({{0, 0, 0}, {0, 0, 1}, {0, 0, 3}, {0, 0, 4}}, {0.2, 0.2, 0.2, 0.2}));
   EXPECT_EQ(curves.pieces(), 3u);
-  const scene::Shape cylinder = scene::Cylinder{{0, 0, 0}, {0, 0, 4}, 0.2};
+  const scene::Cylinder cylinder{{0, 0, 0}, {0, 0, 4}, 0.2};
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> uniform(-1, 1);
   int met = 0;
@@ -121,8 +121,7 @@ TEST(Curves, StraightOnesAreCylinders) {
     const Vec3d towards = {0.3 * uniform(random), 0.3 * uniform(random), 2 + uniform(random)};
     const Vec3d origin = {3 * uniform(random), 3, 2 + 0.5 * uniform(random)};
     const Vec3d direction = towards - origin;
-    const auto one = curves.intersect(origin, direction, 10),
-               other = intersect(cylinder, origin, direction, 10);
+    const auto one = curves.intersect(origin, direction, 10), other = cylinder.hit(origin, direction, 0, 10);
     ASSERT_EQ(one.has_value(), other.has_value()) << i;
     if (!one) continue;
     ++met;

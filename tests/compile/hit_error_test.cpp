@@ -12,7 +12,7 @@
 #include "compile/compiled_scene.h"
 
 namespace tyndall::compile {
-namespace {
+namespace UNNAMED {
 
 using Add = std::function<void(scene::Scene&, const scene::Shape&)>;
 
@@ -23,11 +23,13 @@ struct NamedShape {
   std::vector<Vec3d> points;
   // Of about this size about this centre.
   std::function<scene::Shape(scene::Scene&, double size, const Vec3d& center)> make;
+  // Where what leaves it outwards is off it for good; everywhere, but on a torus.
+  std::function<bool(const SurfaceHit&)> convex = [](const SurfaceHit&) { return true; };
 };
 
 scene::Shape mesh(scene::Scene& s, std::vector<Vec3d> points,
                   std::vector<std::array<std::uint32_t, 3>> triangles) {
-  s.meshes.push_back({std::move(points), std::move(triangles), {}, {}});
+  s.meshes.push_back(scene::TriangleMesh{std::move(points), std::move(triangles), {}, {}});
   return scene::Mesh{scene::MeshId(s.meshes.size() - 1)};
 }
 
@@ -57,6 +59,26 @@ std::vector<NamedShape> shapes() {
        [](scene::Scene&, double r, const Vec3d& c) {
          return scene::Cylinder{c, c + Vec3d(0.5 * r, r, -0.7 * r), 0.1 * r};
        }},
+      {"cone",
+       true,
+       {{0.4, 0, 0}, {-0.4, 0, 0.3}, {0, 0.9, 0}, {0, 0.1, -0.5}},
+       [](scene::Scene&, double r, const Vec3d& c) {
+         return scene::Cone{c, c + Vec3d(0, r, 0), 0.6 * r};
+       }},
+      {"slanted part of a cone",
+       true,
+       {{0, 0, 0}, {0.5, 1, -0.7}},
+       [](scene::Scene&, double r, const Vec3d& c) {
+         return scene::Cone{c, c + Vec3d(0.5 * r, r, -0.7 * r), 0.1 * r, 0.3 * r};
+       }},
+      {"torus",
+       true,
+       {{0.6, 0, 0.2}, {0.7, 0.2, 0}, {0.6, -0.2, 0.1}},
+       [](scene::Scene&, double r, const Vec3d& c) {
+         return scene::Torus{c, {0, 1, 0}, 0.7 * r, 0.28 * r};
+       },
+       // Its outer half.
+       [](const SurfaceHit& hit) { return std::abs(hit.uv.y - 0.5) < 0.24; }},
       {"plane",
        false,
        {{-2, 0.6, 0}, {4, -0.6, 0}, {1.15, 0.36, 1.3}},
@@ -169,7 +191,7 @@ void place(scene::Scene& s, const scene::ShapeInstance& thing, const Placement& 
   last.world_from_object = Transform::translate({size, 0, 0.3 * size}) * transform;
   s.shapes.push_back(first);
   if (!how.moves) return;
-  s.animation.shutter.radians = pi;
+  s.animation.shutter.closes.radians = pi;
   s.motion.shapes.push_back({0, {first, last}, {0, 1}, {}});
 }
 
@@ -206,8 +228,9 @@ struct Counts {
   int rays = 0, met_again = 0, not_left = 0, large_offsets = 0;
 };
 
-void leave(const CompiledScene& world, const SurfaceHit& hit, const Vec3d& arriving, bool closed, double size,
-           Random& random, Counts& counts) {
+void leave(const CompiledScene& world, const SurfaceHit& hit, const Vec3d& arriving, const NamedShape& shape,
+           double size, Random& random, Counts& counts) {
+  const bool closed = shape.closed;
   const Vec3d normal = dot(hit.normal, arriving) > 0 ? -hit.normal : hit.normal;
   const double scale = size + length(hit.position) + length(world.origin);
   counts.large_offsets += !(hit.offset_before <= 1e-12 * scale && hit.offset_before > 0);
@@ -217,7 +240,7 @@ void leave(const CompiledScene& world, const SurfaceHit& hit, const Vec3d& arriv
     const Vec3d before = hit.position + normal * hit.offset_before;
     const Vec3d behind = hit.position - normal * hit.offset_behind;
     const Vec3d out = random.leaving(normal);
-    if (outside) counts.met_again += world.occluded({before, out, infinity, hit.time});
+    if (outside && shape.convex(hit)) counts.met_again += world.occluded({before, out, infinity, hit.time});
     if (!closed) counts.met_again += world.occluded({behind, -out, infinity, hit.time});
     if (!closed || !outside) continue;
     // Into the body: it is left once.
@@ -247,13 +270,13 @@ Counts count(const NamedShape& shape, const Placement& placement, double size) {
   };
   // Seen from afar, from as far as its size, and from its very skin.
   for (const double distance : {1e4, 2.0, 1e-3}) {
-    s.camera = scene::PerspectiveCamera{target() + random.direction() * (distance * size), {}};
+    s.camera = scene::PerspectiveCamera{{}, target() + random.direction() * (distance * size), {}};
     const CompiledScene world = compile(s);
     for (int i = 0; i < 40; ++i) {
       const Vec3d to = target() - world.origin;
       const Vec3d from = distance > 1 ? Vec3d() : to + random.direction() * (distance * size);
       const auto hit = world.closest_hit({from, normalize(to - from), infinity, time}, RayKind::scattered);
-      if (hit) leave(world, *hit, normalize(to - from), shape.closed, size, random, counts);
+      if (hit) leave(world, *hit, normalize(to - from), shape, size, random, counts);
     }
   }
   return counts;

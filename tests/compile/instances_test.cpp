@@ -7,7 +7,7 @@
 #include "compile/compiled_scene.h"
 
 namespace tyndall::compile {
-namespace {
+namespace UNNAMED {
 
 constexpr double close = 1e-11;  // rounding of two maps against that of their product, in a scene of 10 m
 
@@ -76,7 +76,7 @@ scene::Scene instanced(Random& random) {
                              {}});
   for (int i = 0; i < 12; ++i)
     s.shapes.push_back(shape(shapes[i % 5], random.transform(4), scene::MaterialId(std::size_t{0}), true));
-  s.lights.push_back({optics::SphereLight{{1, 2, 3}, 0.5, Rgb(1), {}, true}, {}});
+  s.lights.push_back({scene::AreaLight{scene::Sphere{{1, 2, 3}, 0.5}, Rgb(1), {}}, {}});
   return s;
 }
 
@@ -127,7 +127,7 @@ TEST(Instances, AreTheirPrototypesWrittenOut) {
 // Far from the origin the maps lose digits, but no more than the coordinates have.
 TEST(Instances, HoldFarAway) {
   scene::Scene s;
-  s.camera = scene::PerspectiveCamera{{1e7, 0, 5}, {1e7, 0, 0}, {0, 1, 0}};
+  s.camera = scene::PerspectiveCamera{{}, {1e7, 0, 5}, {1e7, 0, 0}, {0, 1, 0}};
   add_diffuse(s, Rgb(0.5f));
   scene::Prototype ball;
   ball.shapes.push_back(

@@ -1,6 +1,6 @@
 // Majorant grids: sound bounds whatever ray or thread comes first, along rays without gaps, in bounded
 // memory.
-#include "compile/majorant_grid.h"
+#include "compile/majorant/majorant_grid.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,16 +10,16 @@
 
 #include "base/numerics.h"
 #include "compile/compiled_scene.h"
-#include "compile/grid_walk.h"
-#include "compile/kind_walk.h"
-#include "compile/volume_grids.h"
+#include "compile/majorant/build_majorant_grids.h"
+#include "compile/majorant/majorant_dda.h"
+#include "compile/majorant/occupancy_walk.h"
 #include "scene/motion.h"
 #include "support/scene_builder.h"
 #include "support/scene_text.h"
-#include "vm/machine.h"
+#include "vm/run/machine.h"
 
 namespace tyndall::compile {
-namespace {
+namespace UNNAMED {
 
 using support::Expression;
 using support::Point;
@@ -125,9 +125,9 @@ void for_rays(const Built& b, Visit&& visit) {
     Vec3d direction = i % 7 == 0 ? Vec3d{0, 0, 1} : towards - from;
     if (i % 3 == 0) direction = {uniform(random), uniform(random), i % 5 == 0 ? 0 : uniform(random)};
     const Ray ray = {from, normalize(direction), i % 4 == 0 ? 2.5 : infinity};
-    std::vector<VolumeInterval> stays;
-    b.world.volume_intervals(ray, RayKind::scattered, stays);
-    for (const VolumeInterval& stay : stays) visit(ray, stay);
+    std::vector<VolumeInterval> intervals_inside;
+    b.world.volume_intervals(ray, RayKind::scattered, intervals_inside);
+    for (const VolumeInterval& stay : intervals_inside) visit(ray, stay);
   }
 }
 const Transform awry = Transform::translate({0.2, -0.1, 0}) * Transform::rotate({1, 2, 0}, 0.7) *
@@ -139,7 +139,7 @@ TEST(MajorantGrids, WalksCoverTheRayWithoutGapsAndHoldOnIt) {
   BoundsScratch scratch;
   std::size_t walked = 0;
   for_rays(b, [&](const Ray& ray, const VolumeInterval& stay) {
-    GridWalk walk(b.grid(), volume.medium_from_render, ray, stay.t0, stay.t1, scratch);
+    MajorantDda walk(b.grid(), volume.medium_from_render, ray, stay.t0, stay.t1, scratch);
     MajorantSegment s;
     double t = stay.t0;
     std::vector<Vec3d> points;
@@ -175,12 +175,12 @@ TEST(MajorantGrids, WalksOverKindsSkipOnlyWhatIsEmpty) {
       awry);
   const CompiledVolume& volume = b.world.volumes[0];
   BoundsScratch scratch;
-  KindWalk kinds;
+  OccupancyWalk kinds;
   std::array<double, 3> length{};
   for (const double step : {1e-6, 0.05, 0.3, 100.0})
     for_rays(b, [&](const Ray& ray, const VolumeInterval& stay) {
       double t = stay.t0;
-      for (const KindSegment& s :
+      for (const OccupancySegment& s :
            kinds.along(b.grid(), volume.medium_from_render, ray, stay.t0, stay.t1, step, scratch)) {
         ASSERT_EQ(s.t0, t);
         ASSERT_LT(s.t0, s.t1);
@@ -201,9 +201,9 @@ TEST(MajorantGrids, WalksOverKindsSkipOnlyWhatIsEmpty) {
 
 // The kinds along a ray in the medium's space, neighbours of one kind joined, without what is shorter than
 // rounding.
-std::vector<KindSegment> joined(const std::vector<KindSegment>& all, double rounding) {
-  std::vector<KindSegment> out;
-  for (const KindSegment& s : all) {
+std::vector<OccupancySegment> joined(const std::vector<OccupancySegment>& all, double rounding) {
+  std::vector<OccupancySegment> out;
+  for (const OccupancySegment& s : all) {
     if (s.t1 - s.t0 <= rounding) continue;
     if (!out.empty() && out.back().kind == s.kind)
       out.back().t1 = s.t1;
@@ -212,13 +212,13 @@ std::vector<KindSegment> joined(const std::vector<KindSegment>& all, double roun
   }
   return out;
 }
-void expect_kinds_of_grid_walk(const MajorantGrid& grid, const Ray& ray, double t1, double rounding,
-                               const std::string& what) {
+void expect_occupancy_of_dda(const MajorantGrid& grid, const Ray& ray, double t1, double rounding,
+                             const std::string& what) {
   BoundsScratch scratch;
-  GridWalk walk(grid, Transform(), ray, 0, t1, scratch);
-  std::vector<KindSegment> one_by_one;
+  MajorantDda walk(grid, Transform(), ray, 0, t1, scratch);
+  std::vector<OccupancySegment> one_by_one;
   for (MajorantSegment s; walk.next(s);) one_by_one.push_back({s.t0, s.t1, s.bounds.kind});
-  KindWalk kinds;
+  OccupancyWalk kinds;
   const auto found = kinds.along(grid, Transform(), ray, 0, t1, 1e-6, scratch);
   const auto a = joined(one_by_one, rounding / 2), b = joined({found.begin(), found.end()}, rounding / 2);
   ASSERT_EQ(a.size(), b.size()) << what;
@@ -243,7 +243,7 @@ TEST(MajorantGrids, WalksOverKindsGoThroughCornersAsCellByCell) {
           const Vec3d d = normalize(Vec3d(dx, dy, dz));
           const Vec3d through = Vec3d(cell * (2 + off), cell * (1 + off), cell * off);
           const Ray ray{through - d * 0.9, d, infinity};
-          expect_kinds_of_grid_walk(grid, ray, 1.8, 3.6e-6, fmt::format("{} {} {} + {}", dx, dy, dz, off));
+          expect_occupancy_of_dda(grid, ray, 1.8, 3.6e-6, fmt::format("{} {} {} + {}", dx, dy, dz, off));
         }
       }
 }
@@ -258,7 +258,7 @@ TEST(MajorantGrids, WalksOverKindsHoldAlongAThousandCells) {
   const double rounding = 0.5e-4 * grid.cell_size().x;
   for (const Vec3d& d : {Vec3d(1, 0, 0), Vec3d(1, 0.0017, -0.0009), Vec3d(-1, 0.0013, 0.0019)}) {
     const Ray ray{{d.x > 0 ? 0.0 : 1000.0, -0.95, -0.05}, normalize(d), infinity};
-    expect_kinds_of_grid_walk(grid, ray, 999, rounding, fmt::format("{} {}", d.x, d.y));
+    expect_occupancy_of_dda(grid, ray, 999, rounding, fmt::format("{} {}", d.x, d.y));
   }
 }
 
@@ -370,12 +370,19 @@ TEST(MajorantGrids, PartsOfTheShutterHaveGridsOfTheirOwn) {
   const std::string settings =
       "animation { fps: 1  frames: 0..0  shutter: 360deg }\nrender { resolution: (64, 64) }\n"
       "camera perspective { from: (0, 0, 6)  to: (0, 0, 0)  fov: 40deg }\n";
-  for (const std::string volume : {"volume { in: box { min: (-2, -1, -1)  max: (2, 1, 1) }  medium: { "
-                                   "density = 5 * max(0, 0.5 - length(p - "
-                                   "(4 * time - 2, 0, 0)))  albedo = 0.5 } }",
-                                   "volume { transform: translate((2 * time, 0, 0))  in: box { min: (-2, -1, "
-                                   "-1)  max: (2, 1, 1) }  medium: "
-                                   "{ density = 5 * max(0, 0.5 - length(P))  albedo = 0.5 } }"}) {
+  for (const std::string volume : {R"(
+volume {
+  in: box { min: (-2, -1, -1)  max: (2, 1, 1) }
+  medium: { density = 5 * max(0, 0.5 - length(p - (4 * time - 2, 0, 0)))  albedo = 0.5 }
+}
+)",
+                                   R"(
+volume {
+  transform: translate((2 * time, 0, 0))
+  in: box { min: (-2, -1, -1)  max: (2, 1, 1) }
+  medium: { density = 5 * max(0, 0.5 - length(P))  albedo = 0.5 }
+}
+)"}) {
     const CompiledScene world = compile(support::scene_of(settings + volume));
     const CompiledVolume& v = world.volumes.at(0);
     ASSERT_GE(v.time_slabs, 4u);
@@ -384,7 +391,7 @@ TEST(MajorantGrids, PartsOfTheShutterHaveGridsOfTheirOwn) {
     all_the_time.time.hi = world.grids.back()->domain().time.hi;
     if (v.motion) {
       all_the_time.world_from_medium.clear();
-      for (const scene::Volume& key : v.motion->keys)
+      for (const scene::Volume& key : v.motion->keys().keys)
         all_the_time.world_from_medium.push_back(key.world_from_medium);
     }
     const MajorantGrid whole(world.scene.media[0], all_the_time);
@@ -399,7 +406,7 @@ TEST(MajorantGrids, PartsOfTheShutterHaveGridsOfTheirOwn) {
     for (int i = 0; i < points; ++i) {
       const double fraction = i % 100 == 0 ? (i / 100 % 9) / 8.0 : 0.5 + 0.5 * uniform(random);
       const Vec3d p{2 * uniform(random), uniform(random), uniform(random)};
-      const Vec3d in_world = v.motion ? scene::at(*v.motion, fraction).world_from_medium.point(p) : p;
+      const Vec3d in_world = v.motion ? scene::at(v.motion->keys(), fraction).world_from_medium.point(p) : p;
       const float seconds = world.seconds_at(fraction);
       std::array<float, 3> medium_place, world_place;
       vm::BatchInputs inputs;
@@ -431,14 +438,19 @@ TEST(MajorantGrids, PartsOfTheShutterHaveGridsOfTheirOwn) {
 // A still medium has one grid however long the shutter is open.
 TEST(MajorantGrids, WhatStaysTheSameHasOneGrid) {
   const CompiledScene world = compile(support::scene_of(
-      "animation { fps: 1  frames: 0..0  shutter: 360deg }\nrender { resolution: (64, 64) }\n"
-      "camera perspective { from: (0, 0, 6)  to: (0, 0, 0)  fov: 40deg }\n"
-      "sphere { center: (5 * time, 0, 0)  radius: 0.1 }\n"
-      "volume { transform: translate((2 * time, 0, 0))  in: sphere { }  medium: { density = max(0, p.x)  "
-      "albedo = "
-      "0.5 } }\n"));
+      R"(
+animation { fps: 1  frames: 0..0  shutter: 360deg }
+render { resolution: (64, 64) }
+camera perspective { from: (0, 0, 6)  to: (0, 0, 0)  fov: 40deg }
+sphere { center: (5 * time, 0, 0)  radius: 0.1 }
+volume {
+  transform: translate((2 * time, 0, 0))
+  in: sphere {}
+  medium: { density = max(0, p.x)  albedo = 0.5 }
+}
+)"));
   EXPECT_EQ(world.grids.size(), 1u);
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::compile

@@ -6,10 +6,11 @@
 #include <random>
 
 #include "base/numerics.h"
-#include "compile/mesh.h"
+#include "compile/geometry/mesh.h"
+#include "shapes/mesh_at.h"
 
 namespace tyndall::compile {
-namespace {
+namespace UNNAMED {
 
 scene::TriangleMesh box_mesh(const Vec3d& lo, const Vec3d& hi) {
   scene::TriangleMesh m;
@@ -47,9 +48,9 @@ struct Random {
   Vec3d vector() { return {uniform(bits), uniform(bits), uniform(bits)}; }
 };
 
-double total(const std::vector<Intervald>& stays) {
+double total(const std::vector<Intervald>& intervals_inside) {
   double sum = 0;
-  for (const Intervald& stay : stays) sum += stay.length();
+  for (const Intervald& stay : intervals_inside) sum += stay.length();
   return sum;
 }
 
@@ -59,20 +60,20 @@ TEST(Meshes, ABoxOfTrianglesIsTheBox) {
   ASSERT_EQ(scene::open_edges(triangles), 0u);
   const CompiledMesh mesh(triangles);
   Random random;
-  std::vector<Intervald> stays;
+  std::vector<Intervald> intervals_inside;
   int hits = 0;
   for (int i = 0; i < 20000; ++i) {
     const Vec3d o = random.vector() * 2, d = random.vector() * (i % 3 + 0.1);
     const double t_max = i % 4 ? infinity : 1;
-    stays.clear();
-    mesh.inside(o, d, t_max, stays);
-    const Intervald stay = inside(box, o, d, t_max);
-    if (stay.length() > 1e-9 || !stays.empty()) {
-      ASSERT_EQ(stays.size(), 1u);
-      EXPECT_NEAR(stays[0].lo, stay.lo, 1e-10);
-      EXPECT_NEAR(stays[0].hi, stay.hi, 1e-10);
+    intervals_inside.clear();
+    mesh.inside(o, d, t_max, intervals_inside);
+    const Intervald stay = box.inside(o, d).clipped_to({0, t_max});
+    if (stay.length() > 1e-9 || !intervals_inside.empty()) {
+      ASSERT_EQ(intervals_inside.size(), 1u);
+      EXPECT_NEAR(intervals_inside[0].lo, stay.lo, 1e-10);
+      EXPECT_NEAR(intervals_inside[0].hi, stay.hi, 1e-10);
     }
-    const auto a = mesh.intersect(o, d, t_max), b = intersect(box, o, d, t_max);
+    const auto a = mesh.intersect(o, d, t_max), b = box.hit(o, d, 0, t_max);
     ASSERT_EQ(a.has_value(), b.has_value());
     if (!a) continue;
     ++hits;
@@ -90,7 +91,7 @@ TEST(Meshes, EdgesAndCornersAreCrossedOnce) {
   const CompiledMesh mesh(triangles);
   std::mt19937 bits(3);
   std::uniform_int_distribution<int> whole(-5, 5);
-  std::vector<Intervald> stays;
+  std::vector<Intervald> intervals_inside;
   int exact = 0;
   for (int i = 0; i < 20000; ++i) {
     const Vec3d o{double(whole(bits)), double(whole(bits)), double(whole(bits))};
@@ -101,9 +102,9 @@ TEST(Meshes, EdgesAndCornersAreCrossedOnce) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       in_side |= d[axis] == 0 && (o[axis] == box.min[axis] || o[axis] == box.max[axis]);
     if (in_side) continue;
-    stays.clear();
-    mesh.inside(o, d, infinity, stays);
-    EXPECT_NEAR(total(stays), inside(box, o, d, infinity).length(), 1e-12) << i;
+    intervals_inside.clear();
+    mesh.inside(o, d, infinity, intervals_inside);
+    EXPECT_NEAR(total(intervals_inside), box.inside(o, d).clipped_to({0, infinity}).length(), 1e-12) << i;
     ++exact;
   }
   EXPECT_GT(exact, 10000);
@@ -137,16 +138,16 @@ TEST(Meshes, ASphereOfTrianglesIsNearlyTheSphere) {
   ASSERT_EQ(scene::open_edges(triangles), 0u);
   const CompiledMesh mesh(triangles);
   Random random;
-  std::vector<Intervald> stays;
+  std::vector<Intervald> intervals_inside;
   double of_mesh = 0, of_sphere = 0;
   for (int i = 0; i < 20000; ++i) {
     const Vec3d o = random.vector() * 1.5, d = normalize(random.vector());
-    stays.clear();
-    mesh.inside(o, d, 2, stays);
-    ASSERT_LE(stays.size(), 1u);
-    const double chord = inside(scene::Sphere{}, o, d, 2).length();
-    EXPECT_LE(total(stays), chord + 1e-12);  // it lies within the sphere
-    of_mesh += total(stays);
+    intervals_inside.clear();
+    mesh.inside(o, d, 2, intervals_inside);
+    ASSERT_LE(intervals_inside.size(), 1u);
+    const double chord = scene::Sphere{}.inside(o, d).clipped_to({0, 2}).length();
+    EXPECT_LE(total(intervals_inside), chord + 1e-12);  // it lies within the sphere
+    of_mesh += total(intervals_inside);
     of_sphere += chord;
   }
   // Sides of length 0.05 lie up to 0.05²/6 below the sphere.
@@ -162,22 +163,22 @@ TEST(Meshes, CountTheirWinding) {
   scene::TriangleMesh cavity = box_mesh({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   hollow.points.insert(hollow.points.end(), cavity.points.begin(), cavity.points.end());
   for (const auto& [a, b, c] : cavity.triangles) hollow.triangles.push_back({a + 8, c + 8, b + 8});
-  std::vector<Intervald> stays;
-  CompiledMesh(turned).inside({0.1, 0.2, 0}, {0, 0, 1}, infinity, stays);
-  ASSERT_EQ(stays.size(), 1u);
-  EXPECT_EQ(stays[0], (Intervald{0, 1}));
-  stays.clear();
-  CompiledMesh(hollow).inside({0.1, 0.2, -5}, {0, 0, 1}, infinity, stays);
-  ASSERT_EQ(stays.size(), 2u);
+  std::vector<Intervald> intervals_inside;
+  CompiledMesh(turned).inside({0.1, 0.2, 0}, {0, 0, 1}, infinity, intervals_inside);
+  ASSERT_EQ(intervals_inside.size(), 1u);
+  EXPECT_EQ(intervals_inside[0], (Intervald{0, 1}));
+  intervals_inside.clear();
+  CompiledMesh(hollow).inside({0.1, 0.2, -5}, {0, 0, 1}, infinity, intervals_inside);
+  ASSERT_EQ(intervals_inside.size(), 2u);
   constexpr double ulps = 1e-14;
-  EXPECT_NEAR(stays[0].lo, 4, ulps);
-  EXPECT_NEAR(stays[0].hi, 4.5, ulps);
-  EXPECT_NEAR(stays[1].lo, 5.5, ulps);
-  EXPECT_NEAR(stays[1].hi, 6, ulps);
+  EXPECT_NEAR(intervals_inside[0].lo, 4, ulps);
+  EXPECT_NEAR(intervals_inside[0].hi, 4.5, ulps);
+  EXPECT_NEAR(intervals_inside[1].lo, 5.5, ulps);
+  EXPECT_NEAR(intervals_inside[1].hi, 6, ulps);
   // A box and the same box turned over cancel.
-  stays.clear();
-  CompiledMesh(twice).inside({0.1, 0.2, -5}, {0, 0, 1}, infinity, stays);
-  EXPECT_NEAR(total(stays), 0, ulps);
+  intervals_inside.clear();
+  CompiledMesh(twice).inside({0.1, 0.2, -5}, {0, 0, 1}, infinity, intervals_inside);
+  EXPECT_NEAR(total(intervals_inside), 0, ulps);
 }
 
 // Without a lid it is told to be open, and stays remain within the box and are numbers.
@@ -190,12 +191,12 @@ TEST(Meshes, OpenOnesAreToldAndHarmless) {
   EXPECT_EQ(scene::open_edges(badly_wound), 3u);
   const CompiledMesh mesh(open);
   Random random;
-  std::vector<Intervald> stays;
+  std::vector<Intervald> intervals_inside;
   for (int i = 0; i < 5000; ++i) {
     const Vec3d o = random.vector() * 3, d = random.vector();
-    stays.clear();
-    mesh.inside(o, d, infinity, stays);
-    for (const Intervald& stay : stays) {
+    intervals_inside.clear();
+    mesh.inside(o, d, infinity, intervals_inside);
+    for (const Intervald& stay : intervals_inside) {
       EXPECT_FALSE(stay.empty());
       EXPECT_LE(max_component(o + d * stay.hi), 1 + 1e-9);
       EXPECT_GE(min_component(o + d * stay.hi), -1 - 1e-9);
@@ -216,6 +217,54 @@ TEST(Meshes, MixUvsAndNormalsOverTheirPoints) {
   EXPECT_NEAR(hit->uv.y, 2, 1e-14);
   EXPECT_NEAR(hit->shading_normal.x, 0.25, 1e-14);
   EXPECT_GT(hit->normal.z, 0);
+}
+
+// The sphere's triangles swell and turn: at any time it is the mesh that stands as it is then.
+TEST(Meshes, ThatDeformAreAtATimeAsTheyAreThen) {
+  scene::TriangleMesh mesh = sphere_mesh(3);
+  mesh.normals = mesh.points;
+  for (int k = 1; k <= 4; ++k) {
+    scene::MeshPose pose;
+    for (const Vec3d& p : mesh.points) {
+      const double angle = 0.2 * k + 0.1 * p.z;
+      pose.points.push_back(Vec3d{p.x * std::cos(angle) - p.y * std::sin(angle),
+                                  p.x * std::sin(angle) + p.y * std::cos(angle), p.z * (1 + 0.3 * k)} +
+                            Vec3d{0.7 * k, 0, 0});
+    }
+    pose.normals = pose.points;
+    mesh.later.push_back(std::move(pose));
+  }
+  const CompiledMesh moving(mesh);
+  Random random;
+  int hits = 0;
+  for (int i = 0; i < 64; ++i) {
+    const double time = i == 0 ? 0 : i == 1 ? 1 : (1 + random.uniform(random.bits)) / 2;
+    const shapes::MeshAt now(mesh, time);
+    scene::TriangleMesh frozen = mesh;
+    frozen.later.clear();
+    for (std::uint32_t k = 0; k < frozen.points.size(); ++k) {
+      frozen.points[k] = now.point(k);
+      frozen.normals[k] = now.normal(k);
+    }
+    const CompiledMesh still(frozen);
+    for (int ray = 0; ray < 50; ++ray) {
+      const Vec3d o = random.vector() * 4.0, d = Vec3d{1.4 * time * 2, 0, 0} + random.vector() - o;
+      const auto a = moving.intersect(o, d, infinity, {}, time), b = still.intersect(o, d, infinity);
+      ASSERT_EQ(a.has_value(), b.has_value()) << time;
+      std::vector<Intervald> stays, wanted;
+      moving.inside(o, d, infinity, stays, time);
+      still.inside(o, d, infinity, wanted);
+      ASSERT_EQ(stays.size(), wanted.size());
+      for (std::size_t k = 0; k < stays.size(); ++k) EXPECT_EQ(stays[k].lo, wanted[k].lo);
+      if (!a) continue;
+      ++hits;
+      EXPECT_EQ(a->t, b->t);
+      EXPECT_EQ(a->part, b->part);
+      EXPECT_EQ(a->normal, b->normal);
+      EXPECT_EQ(a->shading_normal, b->shading_normal);
+    }
+  }
+  EXPECT_GT(hits, 500);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Boxes around what moves hold all of its way, between keys too.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,13 +7,13 @@
 
 #include "base/overloaded.h"
 #include "compile/compiled_scene.h"
-#include "compile/geometry.h"
-#include "compile/group.h"
-#include "compile/majorant_grid.h"
+#include "compile/geometry/bvh_group.h"
+#include "compile/geometry/geometry.h"
+#include "compile/majorant/majorant_grid.h"
 #include "support/scene_text.h"
 
 namespace tyndall::compile {
-namespace {
+namespace UNNAMED {
 
 // Points of the surface, some at its ends.
 std::vector<Vec3d> points_of(const scene::Shape& shape) {
@@ -37,6 +38,16 @@ std::vector<Vec3d> points_of(const scene::Shape& shape) {
                           rim(c.from, c.to - c.from, c.radius);
                           rim(c.to, c.to - c.from, c.radius);
                         },
+                        [&](const scene::Cone& c) {
+                          rim(c.from, c.to - c.from, c.radius);
+                          rim(c.to, c.to - c.from, c.tip_radius);
+                        },
+                        [&](const scene::Torus& t) {
+                          rim(t.center, t.normal, t.radius + t.tube);
+                          const Vec3d up = normalize(t.normal) * t.tube;
+                          rim(t.center + up, t.normal, t.radius);
+                          rim(t.center - up, t.normal, t.radius);
+                        },
                         [](const auto&) {}},
              shape);
   return out;
@@ -48,9 +59,10 @@ bool holds(const Bounds& b, const Vec3d& p) {
   return true;
 }
 
-const std::string open_shutter =
-    "animation { fps: 1  frames: 0..1  shutter: 180deg }\n"
-    "camera perspective { from: (0, 0, 50)  to: (0, 0, 0)  fov: 40deg }\n";
+const std::string open_shutter = R"(
+animation { fps: 1  frames: 0..1  shutter: 180deg }
+camera perspective { from: (0, 0, 50)  to: (0, 0, 0)  fov: 40deg }
+)";
 
 const char* const ways[] = {
     "rotate_z(300deg * time)", "rotate((1, 1, 0), 2000deg * time)",
@@ -63,10 +75,15 @@ TEST(MotionBounds, HoldShapesAllTheWay) {
   std::uniform_real_distribution<double> uniform;
   for (const std::string way : ways)
     for (const std::string shape :
-         {"sphere { center: (time, 1, 0)  radius: 1 + time", "box { min: (-1, 0, 0)  max: (1 + time, 1, 1)",
-          "disk { center: (0, 1, 0)  normal: (4 * time - 1, 1, 0)  radius: 1",
-          "cylinder { from: (0, 0, 0)  to: (8 * time - 2, 1, 0)  radius: 1"}) {
-      const scene::Scene s = support::scene_of(open_shutter + shape + "  transform: " + way + " }\n");
+         {"sphere { center: (time, 1, 0)  radius: 1 + time  transform: way }",
+          "box { min: (-1, 0, 0)  max: (1 + time, 1, 1)  transform: way }",
+          "disk { center: (0, 1, 0)  normal: (4 * time - 1, 1, 0)  radius: 1  transform: way }",
+          "cylinder { from: (0, 0, 0)  to: (8 * time - 2, 1, 0)  radius: 1  transform: way }",
+          "cone { from: (0, 0, 0)  to: (8 * time - 2, 1, 0)  radius: 1  tip_radius: 2 * time  transform: way "
+          "}",
+          "torus { center: (0, 1, 0)  normal: (4 * time - 1, 1, 0)  radius: 1 + time  tube: 0.3  transform: "
+          "way }"}) {
+      const scene::Scene s = support::scene_of(open_shutter + fmt::format("let way = {}\n", way) + shape);
       ASSERT_EQ(s.motion.shapes.size(), 1u) << shape << way;
       const auto& moving = s.motion.shapes[0];
       const Bounds all = swept_bounds(
@@ -85,50 +102,83 @@ TEST(MotionBounds, HoldVolumesAndWhatTheyShowOfTheirMedium) {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> uniform;
   for (const std::string way : ways)
-    for (const std::string& text :
-         {"in: box { min: (-1, 0, 0)  max: (1, 1, 1) }  transform: " + way,
-          "in: box { min: (-1, 0, 0)  max: (1, 1, 1)  transform: rotate_z(45deg) * " + way + " }"}) {
-      const CompiledScene world = compile(support::scene_of(
-          open_shutter + "volume { " + text + "  medium: { density = 1 + sin(p.x)  albedo = 0.5 } }\n"));
+    for (const std::string text : {R"(
+volume { in: box { min: (-1, 0, 0)  max: (1, 1, 1) }  medium: waves  transform: way }
+)",
+                                   R"(
+volume { in: box { min: (-1, 0, 0)  max: (1, 1, 1)  transform: rotate_z(45deg) * way }  medium: waves }
+)"}) {
+      const std::string names = R"(
+medium waves() { density = 1 + sin(p.x)  albedo = 0.5 }
+)" + fmt::format("let way = {}\n", way);
+      const CompiledScene world = compile(support::scene_of(open_shutter + names + text));
       const CompiledVolume& volume = world.volumes.at(0);
       ASSERT_NE(volume.motion, nullptr);
       const Bounds all = world.geometry->volume_bounds(volume),
                    &seen = world.grids.at(volume.grid)->domain().box;
       for (int i = 0; i < 2000; ++i) {
-        const CompiledVolume::Place now = volume.moved(uniform(random));
-        const auto render_from_shape = now.shape_from_render.inverse();
+        const double time = uniform(random);
+        const auto render_from_shape = volume.motion->shape_from_render(time).inverse();
         ASSERT_TRUE(render_from_shape.has_value());
-        for (const Vec3d& p : points_of(now.shape)) {
+        for (const Vec3d& p : points_of(volume.motion->shape(time).value_or(volume.shape))) {
           const Vec3d place = render_from_shape->point(p);
           ASSERT_TRUE(holds(all, place)) << text << " seed 6, " << i;
-          ASSERT_TRUE(holds(seen, now.medium_from_render.point(place))) << text << " seed 6, " << i;
+          ASSERT_TRUE(holds(seen, volume.motion->medium_from_render(time).point(place)))
+              << text << " seed 6, " << i;
         }
       }
     }
 }
 
+// What rays are asked of a transform alone is what the whole thing has at that moment.
+TEST(MotionBounds, OneTransformMovesAsTheThingDoes) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform;
+  for (const std::string way : ways) {
+    const CompiledScene world =
+        compile(support::scene_of(open_shutter + fmt::format("let way = {}\n", way) + R"(
+sphere { center: (time, 0, 0)  transform: way }
+volume { in: box { min: (-1, 0, 0)  max: (1, 1 + time, 1) }  medium: { density = 1  albedo = 0.5 }  transform: way }
+)"));
+    const auto same = [&](const auto& moving, std::size_t which) {
+      const scene::MovingTransform alone(moving, which);
+      for (int i = 0; i < 200; ++i) {
+        const double time = i == 0 ? 0 : i == 1 ? 1 : uniform(random);
+        const Transform a = alone.at(time), b = scene::transforms_of(scene::at(moving, time))[which];
+        ASSERT_EQ(a.x, b.x) << way;
+        ASSERT_EQ(a.y, b.y) << way;
+        ASSERT_EQ(a.z, b.z) << way;
+        ASSERT_EQ(a.t, b.t) << way;
+      }
+    };
+    const scene::Motion& motion = world.scene.motion;
+    ASSERT_EQ(motion.shapes.size(), 1u);
+    ASSERT_EQ(motion.volumes.size(), 1u);
+    same(motion.shapes[0], 0);
+    same(motion.volumes[0], 0);
+    same(motion.volumes[0], 1);
+    EXPECT_TRUE(scene::moves_within(motion.volumes[0]));
+  }
+}
+
 // Rays meet a turning thing where a still one is at their time; there are enough of them for a tree.
 TEST(MotionBounds, RaysMeetWhatTurnsWhereItIs) {
-  const std::string way = "rotate_z(2000deg * TIME) * translate((2, 0, 0)) * rotate_x(40deg)";
-  const auto scene_at = [&](const std::string& time) {
-    std::string transform = way;
-    for (std::size_t at = transform.find("TIME"); at != std::string::npos; at = transform.find("TIME"))
-      transform.replace(at, 4, time);
-    std::string text = open_shutter + "object bar { box { min: (-1, -0.2, -0.3)  max: (1, 0.2, 0.3) } }\n";
-    for (int i = 0; i < 12; ++i) {
-      const std::string placed =
-          "transform: translate((0, 0, " + std::to_string(2 * i - 12) + ")) * " + transform;
-      text += i % 2 ? "place bar { " + placed + " }\n"
-                    : "box { min: (-1, -0.2, -0.3)  max: (1, 0.2, 0.3)  " + placed + " }\n";
-    }
-    return compile(support::scene_of(text));
+  const auto scene_at = [&](const std::string& now) {
+    return compile(support::scene_of(open_shutter + fmt::format("let now = {}\n", now) + R"(
+object bar { box { min: (-1, -0.2, -0.3)  max: (1, 0.2, 0.3) } }
+let way = rotate_z(2000deg * now) * translate((2, 0, 0)) * rotate_x(40deg)
+for i in 0..5 {
+  box { min: (-1, -0.2, -0.3)  max: (1, 0.2, 0.3)  transform: translate((0, 0, 4 * i - 12)) * way }
+  place bar { transform: translate((0, 0, 4 * i - 10)) * way }
+}
+)"));
   };
   const CompiledScene moving = scene_at("time");
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> uniform(-1, 1);
   int hits = 0;
   for (const double fraction : {0.03, 0.21, 0.48, 0.66, 0.97}) {
-    const CompiledScene still = scene_at("(" + std::to_string(0.5 * fraction) + ")");
+    const CompiledScene still = scene_at(fmt::format("{}", 0.5 * fraction));
     for (int i = 0; i < 400; ++i) {
       const Vec3d to = Vec3d{3 * uniform(random), 3 * uniform(random), 14 * uniform(random)} - moving.origin;
       const Vec3d from =
@@ -145,5 +195,5 @@ TEST(MotionBounds, RaysMeetWhatTurnsWhereItIs) {
   EXPECT_GT(hits, 200);
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::compile

@@ -9,7 +9,7 @@
 #include "syntax/parser.h"
 
 namespace tyndall::docs {
-namespace {
+namespace UNNAMED {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;

@@ -8,16 +8,14 @@
 #include <sstream>
 
 #include "docs/generated.h"
-#include "eval/names.h"
 #include "resolve/limits.h"
-#include "resolve/parameters.h"
 #include "resolve/resolve.h"
-#include "resolve/statements.h"
-#include "shader/material_outputs.h"
+#include "resolve/statements/statements.h"
 #include "syntax/parser.h"
+#include "tools/reference.h"
 
 namespace tyndall::docs {
-namespace {
+namespace UNNAMED {
 
 const std::filesystem::path manual = root / "docs/language.md";
 
@@ -30,111 +28,36 @@ std::string cell(std::string_view text) {
 
 std::string in_code(std::string_view text) { return fmt::format("`{}`", cell(text)); }
 
-// A default as it would be written; empty where there is none to write.
-std::string shown(double value) { return fmt::format("{}", value); }
-std::string shown(int value) { return fmt::format("{}", value); }
-std::string shown(std::uint64_t value) { return fmt::format("{}", value); }
-std::string shown(bool value) { return value ? "true" : "false"; }
-std::string shown(const scene::Step& value) { return scene::describe(value); }
-std::string shown(const scene::MultipleScattering& value) { return scene::describe(value); }
-std::string shown(Angle value) { return fmt::format("{:.4g}deg", value.radians * 180 / 3.14159265358979); }
-std::string shown(const Vec3d& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
-std::string shown(const Pair<int>& p) { return fmt::format("({}, {})", p.x, p.y); }
-template <class T>
-std::string shown(const T&) {
-  return {};
-}
-
-template <class T>
-void add_rows(std::string& out) {
-  T::fields([&](auto member, const FieldInfo& info) {
-    const T given{};
-    const std::string value = shown(given.*member);
-    const std::string standard = info.presence == required ? "required"
-                                 : !info.one_of.empty()    ? "exactly one of these"
-                                 : value.empty()           ? ""
-                                                           : in_code(value);
-    out += fmt::format("| {} | {} | {} |\n", in_code(info.name), cell(info.documentation), standard);
-  });
-}
-
-// The parameters of a shape as a scene gives them.
-template <class T>
-struct AsWritten {
-  using Type = T;
-};
-template <>
-struct AsWritten<scene::Mesh> {
-  using Type = resolve::MeshParameters;
-};
-
-template <>
-struct AsWritten<scene::Curves> {
-  using Type = resolve::CurvesParameters;
-};
-
-class Tables {
- public:
-  template <class T, class... Others>
-  void add() {
-    text += fmt::format("\n### {}\n\n| parameter | is | default |\n| --- | --- | --- |\n", T::keyword);
-    keywords.emplace(T::keyword);
-    if constexpr (std::is_same_v<T, optics::MeshLight>) add_rows<resolve::MeshLightParameters>(text);
-    add_rows<T>(text);
-    (add_rows<Others>(text), ...);
-  }
-  template <class... Ts, class... Others>
-  void add_each(const std::variant<Ts...>*, const std::tuple<Others...>*) {
-    (add<typename AsWritten<Ts>::Type, Others...>(), ...);
-  }
-
+std::string statements() {
   std::string text;
-  std::set<std::string> keywords;
-};
-
-Tables statements() {
-  using namespace resolve;
-  Tables t;
-  t.add<RenderParameters>();
-  t.add<AnimationParameters>();
-  t.add_each(static_cast<const scene::Camera*>(nullptr), static_cast<const std::tuple<Placement>*>(nullptr));
-  t.add_each(static_cast<const optics::Light*>(nullptr), static_cast<const std::tuple<Placement>*>(nullptr));
-  t.add_each(static_cast<const scene::Shape*>(nullptr),
-             static_cast<const std::tuple<ShapePlacement>*>(nullptr));
-  t.add<VolumeParameters>();
-  t.add<GroupParameters>();
-  t.add<PlaceParameters>();
-  return t;
+  for (const tools::ReferenceStatement& statement : tools::reference_statements()) {
+    text += fmt::format("\n### {}\n\n", statement.name);
+    if (!statement.documentation.empty()) text += fmt::format("{}\n\n", statement.documentation);
+    text += "| parameter | is | default |\n| --- | --- | --- |\n";
+    for (const tools::ReferenceParameter& p : statement.parameters) {
+      const std::string standard = p.required           ? "required"
+                                   : p.one_of_several   ? "exactly one of these"
+                                   : p.standard.empty() ? ""
+                                                        : in_code(p.standard);
+      text += fmt::format("| {} | {} | {} |\n", in_code(p.name), cell(p.documentation), standard);
+    }
+  }
+  return text;
 }
 
 std::string builtins() {
   std::string text = "\n| function | gives | |\n| --- | --- | --- |\n";
-  for (const auto rows : {vm::builtins(), eval::phase_builtins()})
-    for (const vm::Builtin& row : rows) {
-      std::string call(row.name);
-      const char* before = "(";
-      for (const vm::BuiltinParameter& parameter : row.parameters) {
-        call += before + std::string(parameter.name);
-        const bool optional = !parameter.default_value.empty();
-        if (parameter.named)
-          call += fmt::format(": {}", optional ? parameter.default_value : "…");
-        else if (optional)
-          call += fmt::format(" = {}", parameter.default_value);
-        before = ", ";
-      }
-      call += row.parameters.empty() ? "()" : ")";
-      text += fmt::format("| {} | {} | {} E.g. {} |\n", in_code(call), cell(row.result),
-                          cell(row.documentation), in_code(row.example));
-    }
+  for (const tools::ReferenceFunction& f : tools::reference_functions())
+    text += fmt::format("| {} | {} | {} E.g. {} |\n", in_code(f.call), cell(f.result), cell(f.documentation),
+                        in_code(f.example));
   return text + "\n";
 }
 
-std::string materials() {
+std::string outputs(const std::vector<tools::ReferenceOutput>& list) {
   std::string text = "\n| output | is | default |\n| --- | --- | --- |\n";
-  for (const shader::OutputRule& rule : shader::material_outputs())
-    text += fmt::format("| {} | {}{} | {} |\n", in_code(rule.name), cell(rule.documentation),
-                        rule.range == "a direction" ? "" : fmt::format(", {}", cell(rule.range)),
-                        cell(rule.standard));
+  for (const tools::ReferenceOutput& output : list)
+    text += fmt::format("| {} | {} | {} |\n", in_code(output.name), cell(output.documentation),
+                        cell(output.standard));
   return text + "\n";
 }
 
@@ -147,19 +70,23 @@ std::string limits() {
 
 TEST(Manual, TablesAreCurrent) {
   expect_part(manual, "limits", limits());
-  const Tables tables = statements();
-  expect_part(manual, "statements", tables.text + "\n");
+  expect_part(manual, "statements", statements() + "\n");
   expect_part(manual, "builtins", builtins());
-  expect_part(manual, "materials", materials());
+  expect_part(manual, "media", outputs(tools::reference_medium_outputs()));
+  expect_part(manual, "materials", outputs(tools::reference_material_outputs()));
 }
 
+TEST(Manual, TheCheatSheetIsCurrent) { expect_file(root / "docs/cheat-sheet.md", tools::cheat_sheet()); }
+
 TEST(Manual, EveryStatementHasATable) {
-  const Tables tables = statements();
+  std::set<std::string> keywords;
+  for (const tools::ReferenceStatement& statement : tools::reference_statements())
+    keywords.insert(statement.name.substr(0, statement.name.find(" \"")));
   syntax::Symbols symbols;
-  const resolve::Statements table(symbols);
+  const resolve::Statements table(resolve::all_statements(), symbols);
   for (const resolve::Statement& row : table.rows())
     if (row.run != nullptr) {
-      EXPECT_TRUE(tables.keywords.contains(std::string(row.name))) << row.name;
+      EXPECT_TRUE(keywords.contains(std::string(row.name))) << row.name;
     }
 }
 
@@ -219,5 +146,5 @@ TEST(Manual, ExamplesAreGood) {
   EXPECT_GE(examples, 7u);
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::docs

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "eval/names.h"
-#include "resolve/statements.h"
+#include "resolve/statements/statements.h"
 #include "syntax/token.h"
-#include "vm/builtins.h"
+#include "vm/program/builtins.h"
 
 namespace tyndall::docs {
 
@@ -35,7 +35,7 @@ struct Words {
         inputs.emplace(symbols.text(syntax::SymbolId(i)));
     for (const auto rows : {vm::builtins(), eval::phase_builtins()})
       for (const vm::Builtin& row : rows) builtins.emplace(row.name);
-    const resolve::Statements table(symbols);
+    const resolve::Statements table(resolve::all_statements(), symbols);
     for (const resolve::Statement& row : table.rows()) {
       const std::size_t space = row.name.find(' ');
       statements.emplace(row.name.substr(0, space));

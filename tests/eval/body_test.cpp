@@ -7,7 +7,7 @@
 #include "run.h"
 
 namespace tyndall::eval {
-namespace {
+namespace UNNAMED {
 
 // Rewrites the numbers of an expression: v becomes v + shift (a number), an angle a becomes a * (1 + shift).
 // The shift is a number of the scene or the input p.x of a body. Numbers that must be known stay as they are.

@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "run.h"
+#include "support/filled.h"
 
 namespace tyndall::eval {
-namespace {
+namespace UNNAMED {
 
 struct Mistake {
   const char* text;
@@ -175,20 +176,23 @@ TEST(Poison, IsSilent) {
 // As deep as the language lets expressions and calls be: an answer or an error, never an overflow of the
 // stack.
 TEST(Depth, IsLimited) {
-  std::string text = "def f0(x) = x\n";
-  for (int i = 1; i <= 80; ++i) {
-    text += "def f" + std::to_string(i) + "(x) = ";
-    for (int k = 0; k < 100; ++k) text += "-(1+";
-    text += "f" + std::to_string(i - 1) + "(x)" + std::string(100, ')') + "\n";
-  }
-  SceneText shallow(text + "let result = f3(1)"), deep(text + "let result = f80(1)");
+  std::string functions = "def f0(x) = x\n";
+  for (int i = 1; i <= 80; ++i)
+    functions +=
+        support::filled("def f$I(x) = $OPEN f$BEFORE(x) $CLOSE\n", {{"I", i},
+                                                                    {"OPEN", support::repeated("-(1+", 100)},
+                                                                    {"BEFORE", i - 1},
+                                                                    {"CLOSE", support::repeated(")", 100)}});
+  SceneText shallow(functions + "let result = f3(1)"), deep(functions + "let result = f80(1)");
   EXPECT_EQ(shallow.scene().type, Type::number) << shallow.all_messages();
   deep.scene();
   EXPECT_NE(deep.first_error().find("nested too deeply"), std::string::npos) << deep.all_messages();
-  std::string chain = "def f0(x) = x ";
-  for (int i = 1; i <= 80; ++i)
-    chain += "def f" + std::to_string(i) + "(x) = f" + std::to_string(i - 1) + "(x) ";
-  SceneText calls(chain + "let result = f80(1)");
+  SceneText calls(support::filled(R"(
+def f0(x) = x
+$OTHERS
+let result = f80(1)
+)",
+                                  {{"OTHERS", support::numbered("def f$I(x) = f$BEFORE(x)\n", 80)}}));
   calls.scene();
   EXPECT_NE(calls.first_error().find("more than 64 functions"), std::string::npos) << calls.all_messages();
 }
@@ -203,5 +207,5 @@ TEST(Unused, LetsOfTheMainFileAreWarnedOf) {
   EXPECT_EQ(run.diagnostics.all()[1].message, "'f' is never used");
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::eval

@@ -4,7 +4,7 @@
 #include "run.h"
 
 namespace tyndall::eval {
-namespace {
+namespace UNNAMED {
 
 struct Row {
   const char* expression;
@@ -55,6 +55,34 @@ INSTANTIATE_TEST_SUITE_P(Logic, Expression,
                                          Row{"if false then 1 else if true then 2 else 3", "2"},
                                          Row{"\"a\" == \"a\"", "true"}, Row{"\"a\" != \"a\"", "false"},
                                          Row{"true == false", "false"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Lists, Expression,
+    testing::Values(
+        Row{"[i * i for i in 0..<4]", "[0, 1, 4, 9]"}, Row{"[i for i in 0..<0]", "[]"},
+        Row{"[s for s in [\"a\", \"b\"]]", "[a, b]"}, Row{"[i for i in 0..9 if i > 6]", "[7, 8, 9]"},
+        Row{"[(a, b) for a in 0..1 for b in 0..2]", "[(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2)]"},
+        Row{"[10 * a + b for a in 1..3 if a != 2 for b in a..3 if b > 1]", "[12, 13, 33]"},
+        Row{"[[i for i in 0..<n] for n in 1..3]", "[[0], [0, 1], [0, 1, 2]]"},
+        Row{"[if i < 1 then -1 else i for i in 0..2]", "[-1, 1, 2]"}, Row{"[1, 2] + [3]", "[1, 2, 3]"},
+        Row{"[] + []", "[]"}, Row{"append([1], [2])", "[1, [2]]"}, Row{"append([], 3)", "[3]"},
+        Row{"sum([1, 2, 3])", "6"}, Row{"sum([])", "0"}, Row{"sum([(1, 2), (3, 4)])", "(4, 6)"},
+        Row{"sum([30deg, 60deg])", "90deg"}, Row{"min([3, 1, 2])", "1"}, Row{"max([3])", "3"},
+        Row{"max([(1, 5), (3, 2)])", "(3, 5)"}, Row{"max([1, (0, 2)])", "(1, 2)"},
+        Row{"min([90deg, 30deg])", "30deg"}, Row{"sort([3, 1, 2])", "[1, 2, 3]"},
+        Row{"sort([\"b\", \"a\", \"aa\"])", "[a, aa, b]"}, Row{"sort([])", "[]"},
+        Row{"keys(0.5, [[0, 10], [1, 20]])", "15"}, Row{"keys(2, points: [0, 1, 3], values: [0, 4, 8])", "6"},
+        Row{"keys(0.5, [[i, i * i] for i in 0..3])", "0.5"},
+        Row{"length([i for i in 1..100000 if mod(i, 2) == 0])", "50000"}));
+
+INSTANTIATE_TEST_SUITE_P(Formats, Expression,
+                         testing::Values(Row{"\"{1 / 3:.2}\"", "0.33"}, Row{"\"{7:03}\"", "007"},
+                                         Row{"\"{1.5:06.2}\"", "001.50"}, Row{"\"{-2:04}\"", "-002"},
+                                         Row{"\"{12345:03}\"", "12345"},
+                                         Row{"\"{(1, 2.25):.1}\"", "(1.0, 2.2)"},
+                                         Row{"\"{45deg:.1}\"", "45.0deg"},
+                                         Row{"\"a{1:02}b{2:.1}c\"", "a01b2.0c"}, Row{"\"{0.5:.0}\"", "0"},
+                                         Row{"\"{-0.4:.0}\"", "0"}, Row{"\"{-0.04:.1}\"", "0.0"}));
 
 // language.md "Values": angle ± angle, angle × or ÷ number, -angle and min max mix clamp abs mod keys of
 // angles are angles; angle ÷ angle, and an angle meeting a number under + - ==, are numbers in radians.
@@ -175,6 +203,17 @@ INSTANTIATE_TEST_SUITE_P(
             "[f(0..4), f(0..<4), f(5..1), f(5..1..-2), f(0..1..0.1), f(0..<1..0.1), f([7, 8])]",
             "[5, 4, 0, 3, 11, 10, 2]"},
         Row{"var a = 1 def f() = a let result = f()", "1"},
+        Row{"def f() = { var l = [1, 2, 3]  l[1] = 5  return l } let result = f()", "[1, 5, 3]"},
+        Row{"def f() = { var l = [1, 2]  let m = l  l[0] = 9  return [l, m] } let result = f()",
+            "[[9, 2], [1, 2]]"},
+        Row{"def f(c) = { var l = [0, 0]  if c { l[0] = 1 } else { l[1] = 2 }  return l } "
+            "let result = [f(true), f(false)]",
+            "[[1, 0], [0, 2]]"},
+        Row{"def f() = { var l = [1]  l[0] = [2]  l[0] = l  return l } let result = f()", "[[[2]]]"},
+        Row{"def primes(n) = { var is = [true for i in 0..n]  for i in 2..n { if is[i] { "
+            "for k in i * i..n..i { is[k] = false } } }  return [i for i in 2..n if is[i]] } "
+            "let result = primes(30)",
+            "[2, 3, 5, 7, 11, 13, 17, 19, 23, 29]"},
         Row{"let c = (1, 2, 3) let result = \"{c.bgr}\"", "(3, 2, 1)"}));
 
 // A sum as long as the parser reads.
@@ -202,5 +241,5 @@ TEST(Random, IsEvenlyDistributed) {
   EXPECT_NEAR(run.scene().as_number(), 0.5, 4.5 / std::sqrt(12 * 40000.0));
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::eval

@@ -8,7 +8,7 @@
 #include "eval/evaluator.h"
 #include "eval/operators.h"
 #include "syntax/parser.h"
-#include "vm/machine.h"
+#include "vm/run/machine.h"
 
 namespace tyndall::eval {
 

@@ -3,7 +3,7 @@
 #include "base/check.h"
 #include "input.h"
 #include "resolve/resolve.h"
-#include "vm/program.h"
+#include "vm/program/program.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace tyndall;

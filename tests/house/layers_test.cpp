@@ -2,9 +2,12 @@
 // and each big library is known to one file.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -12,7 +15,7 @@
 #include <vector>
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 
@@ -36,7 +39,7 @@ std::map<std::string, std::set<std::string>> read_layers() {
     std::set<std::string> uses{name};
     bool in_uses = false;
     while (words >> word) {
-      if (word == "MAY_USE" || word == "LIBRARIES") {
+      if (word == "MAY_USE" || word == "LIBRARIES" || word == "PRECOMPILED") {
         in_uses = word == "MAY_USE";
       } else if (in_uses) {
         uses.insert(word);
@@ -110,11 +113,42 @@ TEST(Layers, NoIncludeBreaksThem) {
   EXPECT_GT(inner, 50u);
 }
 
+// The rooms of a layer are its folders. The build states some layers' rooms, lowest first: each may include
+// those before it, and files of the layer that stand in no room.
+TEST(Layers, NoIncludeBreaksTheOrderOfRooms) {
+  const std::string build = read(source_root / "CMakeLists.txt");
+  const std::regex statement(R"(tyndall_rooms\((\w+) ([^)]*)\))");
+  std::map<std::string, std::vector<std::string>> rooms;
+  for (std::sregex_iterator it(build.begin(), build.end(), statement), end; it != end; ++it) {
+    std::istringstream words((*it)[2]);
+    for (std::string room; words >> room;) rooms[(*it)[1]].push_back((*it)[1].str() + "/" + room);
+  }
+  EXPECT_GE(rooms.size(), 3u);
+  const auto place = [&](const std::string& file) -> std::optional<std::ptrdiff_t> {
+    const auto layer = rooms.find(first_folder(file));
+    const std::string folder = fs::path(file).parent_path().string();
+    if (layer == rooms.end() || folder == layer->first) return std::nullopt;
+    const auto found = std::find(layer->second.begin(), layer->second.end(), folder);
+    EXPECT_NE(found, layer->second.end()) << folder << " is not among the rooms that the build states";
+    return found - layer->second.begin();
+  };
+  std::size_t between = 0;
+  for (const Include& include : read_includes()) {
+    if (!include.quoted || first_folder(include.file) != first_folder(include.target)) continue;
+    const auto from = place(include.file), to = place(include.target);
+    if (!from || !to) continue;
+    ++between;
+    EXPECT_LE(*to, *from) << include.file << " includes \"" << include.target << "\" of a later room";
+  }
+  EXPECT_GT(between, 100u);
+}
+
 // Libraries whose headers stay behind one .cpp, so that each can be replaced by changing one file.
 TEST(Layers, EachBigLibraryIsKnownToOneFile) {
   const std::pair<std::string, std::regex> libraries[] = {
       {"Embree", std::regex("^embree[0-9]*/.*")},
       {"OpenImageIO", std::regex("^OpenImageIO/.*")},
+      {"OpenVDB", std::regex("^openvdb/.*")},
   };
   const auto includes = read_includes();
   for (const auto& [library, header] : libraries) {

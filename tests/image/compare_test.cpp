@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace tyndall::image {
-namespace {
+namespace UNNAMED {
 
 Image grey(std::vector<float> values) {
   return {static_cast<int>(values.size()), 1, {"Y"}, std::move(values)};

@@ -1,5 +1,6 @@
 // Pictures: what is written is read back; files appear whole or not at all.
 #include "image/image.h"
+#include "support/test_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -12,20 +13,13 @@
 #include <limits>
 
 namespace tyndall::image {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 
 // A directory of the test's own, removed at its end.
 class ImageFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = fs::temp_directory_path() /
-                 ("tyndall-image-" + std::string(info->name()) + std::to_string(::getpid()));
-    fs::create_directories(directory_);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
   std::size_t file_count() const {
     return static_cast<std::size_t>(
@@ -33,7 +27,7 @@ class ImageFiles : public testing::Test {
   }
 
  private:
-  fs::path directory_;
+  fs::path directory_ = test_folder();
 };
 
 Image ramp(int width, int height) {
@@ -76,7 +70,8 @@ TEST_F(ImageFiles, PngIsExposedClampedSrgb) {
                     {"R", "G", "B"},
                     {0, 0, 0, 0.25f, 0.25f, 0.25f, 0.5f, 0.5f, 0.5f, 9, 9, 9, -1, -1, -1,
                      std::numeric_limits<float>::quiet_NaN(), 0.0015625f, 0.1f}};
-  ASSERT_EQ(write(path("a.png"), image, {{"tyndall:seed", "17"}}, 1.0), "");
+  ASSERT_EQ(
+      write(path("a.png"), image, {{"tyndall:seed", "17"}}, {.exposure = {1}, .tonemap = Tonemap::none}), "");
   const ReadResult back = read(path("a.png"));
   ASSERT_TRUE(back.image) << back.error;
   EXPECT_EQ(back.image->at(0, 0, 0), 0);
@@ -95,7 +90,7 @@ TEST_F(ImageFiles, APartStandsInTheWhole) {
   Image part = ramp(2, 3);
   for (float& value : part.pixels) value = 1;
   part.place = {4, 5, 9, 10};
-  for (const std::string name : {"a.exr", "a.png"}) {
+  for (const std::string name : {"a.exr", "a.png", "a.tif", "a.jpg"}) {
     ASSERT_EQ(write(path(name), part, {}), "");
     const ReadResult back = read(path(name));
     ASSERT_TRUE(back.image) << back.error;
@@ -103,7 +98,8 @@ TEST_F(ImageFiles, APartStandsInTheWhole) {
     EXPECT_EQ(back.image->height, 10);
     for (int y = 0; y < 10; ++y)
       for (int x = 0; x < 9; ++x)
-        EXPECT_EQ(back.image->at(x, y, 1), x >= 4 && x < 6 && y >= 5 && y < 8 ? 1 : 0)
+        EXPECT_NEAR(back.image->at(x, y, 1), x >= 4 && x < 6 && y >= 5 && y < 8 ? 1 : 0,
+                    name == "a.jpg" ? 0.06 : 0)
             << name << x << "," << y;
   }
 }
@@ -133,9 +129,64 @@ TEST_F(ImageFiles, TheSamePictureIsTheSameBytes) {
   };
   EXPECT_EQ(bytes("a.exr"), bytes("b.exr"));
   EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+  EXPECT_EQ(bytes("a.jpg"), bytes("b.jpg"));
+  EXPECT_EQ(bytes("a.tif"), bytes("b.tif"));
   // Also at another time of day.
   EXPECT_EQ(text_of(read(path("a.exr")).metadata, "DateTime"), "");
-  EXPECT_EQ(text_of(read(path("a.png")).metadata, "DateTime"), "");
+  for (const std::string name : {"a.png", "a.jpg", "a.tif"})
+    EXPECT_EQ(text_of(read(path(name)).metadata, "DateTime"), "") << name;
+}
+
+// 16 bits of a TIFF keep what 8 would not; 8 of a JPEG are near.
+TEST_F(ImageFiles, TiffHasSixteenBitsAndJpegIsNear) {
+  Image image{64, 1, {"R", "G", "B"}, {}};
+  for (int x = 0; x < 64; ++x) image.pixels.insert(image.pixels.end(), 3, static_cast<float>(x) / 6300);
+  for (const std::string name : {"a.tif", "a.tiff", "a.jpg", "a.jpeg"}) {
+    ASSERT_EQ(write(path(name), image, {{"tyndall:seed", "17"}}), "");
+    const ReadResult back = read(path(name));
+    ASSERT_TRUE(back.image) << back.error;
+    const float most = name.starts_with("a.t") ? 1.0f / 65535 : 0.003f;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      EXPECT_NEAR(back.image->pixels[i], image.pixels[i], most) << name << i;
+    EXPECT_NE(text_of(back.metadata, "ImageDescription").find("tyndall:seed: 17"), std::string::npos) << name;
+    EXPECT_EQ(back.view, View::of_numbers());
+  }
+}
+
+// A JPEG and a TIFF have room for 64 kB: what is longer is left out, and the rest told.
+TEST_F(ImageFiles, LongMetadataAreNoProblem) {
+  for (const std::string name : {"a.exr", "a.png", "a.tif", "a.jpg"}) {
+    ASSERT_EQ(write(path(name), ramp(2, 2),
+                    {{"tyndall:long", std::string(200'000, 'x')},
+                     {"tyndall:middle", std::string(50'000, 'y')},
+                     {"tyndall:seed", "17"}}),
+              "");
+    std::string told;
+    for (const auto& [key, value] : read_metadata(path(name)).metadata) told += key + ": " + value + "\n";
+    EXPECT_NE(told.find("tyndall:seed: 17"), std::string::npos) << name;
+    EXPECT_NE(told.find("yyy"), std::string::npos) << name;
+    EXPECT_EQ(told.find("xxx") != std::string::npos, name == "a.exr" || name == "a.png") << name;
+  }
+}
+
+// A view is told by an EXR and changes nothing of it; another one can be told later.
+TEST_F(ImageFiles, AnExrTellsItsView) {
+  Image part = ramp(3, 2);
+  part.place = {4, 5, 9, 10};
+  const View view{.exposure = {-0.5, true}, .tonemap = Tonemap::neutral}, later{.exposure = {2}};
+  ASSERT_EQ(write(path("a.exr"), part, {{"tyndall:seed", "17"}}, view), "");
+  const ReadResult first = read(path("a.exr"));
+  ASSERT_TRUE(first.image);
+  EXPECT_EQ(first.view, view);
+  EXPECT_EQ(first.image->at(4, 5, 0), part.at(0, 0, 0));
+  const auto size = fs::file_size(path("a.exr"));
+  ASSERT_EQ(retell(path("a.exr"), {{"tyndall:seed", "18"}}, later), "");
+  const ReadResult second = read(path("a.exr"));
+  ASSERT_TRUE(second.image) << second.error;
+  EXPECT_EQ(second.view, later);
+  EXPECT_EQ(second.image->pixels, first.image->pixels);
+  EXPECT_EQ(text_of(second.metadata, "tyndall:seed"), "18");
+  EXPECT_LT(fs::file_size(path("a.exr")), size + 100) << "it still has no pixels but its own";
 }
 
 TEST_F(ImageFiles, OverwritesAndLeavesNothingBeside) {
@@ -150,7 +201,7 @@ TEST_F(ImageFiles, BadPathsAreToldBeforeAndAtWriting) {
   const struct {
     std::string path, wanted;
   } cases[] = {
-      {path("a.jpg"), "unknown extension '.jpg'"},      {path("a"), "no extension"},
+      {path("a.bmp"), "unknown extension '.bmp'"},      {path("a"), "no extension"},
       {path("no/such/a.exr"), "there is no directory"}, {path("folder.exr"), "it is a directory"},
       {"/proc/a.exr", "cannot write '/proc/a.exr'"},  // a directory in which not even root can make files
   };
@@ -195,5 +246,5 @@ TEST_F(ImageFiles, ATruncatedPictureIsAnError) {
   EXPECT_FALSE(read(path("a.exr")).image);
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::image

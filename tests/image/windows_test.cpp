@@ -1,6 +1,7 @@
 // Pictures whose stored pixels are not those that are shown, and files that claim more than they hold.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,9 +13,10 @@
 #include <functional>
 
 #include "image/image.h"
+#include "support/test_folder.h"
 
 namespace tyndall::image {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 
@@ -86,15 +88,9 @@ class Windows : public testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return (folder_ / name).string();
   }
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / fmt::format("tyndall-windows-{}-{}", info->name(), ::getpid());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
 
  private:
-  fs::path folder_;
+  fs::path folder_ = test_folder();
 };
 
 constexpr std::uint64_t plenty = std::uint64_t{1} << 30;
@@ -165,5 +161,37 @@ TEST_F(Windows, AFileThatHoldsLessThanItClaimsIsAnError) {
   EXPECT_TRUE(result.planes.empty());
 }
 
-}  // namespace
+// Of a kilobyte that claims a gigabyte and more: in scan lines, in tiles, in one tile that is cut short, in
+// rows.
+TEST_F(Windows, WhatIsOnlyClaimedTakesNoMemory) {
+  std::ifstream tiles(TYNDALL_SOURCE_DIR "/tests/image/pictures/tiles.exr", std::ios::binary);
+  const std::string tiled{std::istreambuf_iterator<char>(tiles), {}};
+  const auto with_value = [](std::string bytes, const std::string& attribute, const std::string& value) {
+    return bytes.replace(bytes.find(attribute) + attribute.size() + 4, value.size(), value);
+  };
+  std::string window;
+  put(window, Window{0, 0, 16383, 8191});
+  const auto claiming = [&](std::string bytes) {
+    for (const char* name : {"dataWindow", "displayWindow"})
+      bytes = with_value(std::move(bytes), name + std::string("\0box2i\0", 7), window);
+    return bytes;
+  };
+  const std::string lines = exr({0, 0, 7, 7}, {0, 0, 7, 7}, [](int, int) { return 1.0f; });
+  const std::pair<std::string, std::string> cases[] = {
+      {"lines.exr", claiming(lines)}, {"tiles.exr", claiming(tiled)}, {"rows.pfm", "PF\n16384 8192\n-1.0\n"}};
+  read_planes(file("good.exr", lines), "", plenty);  // the libraries take some themselves
+  const auto peak = [] {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024;  // [MB]
+  };
+  for (const auto& [name, bytes] : cases) {
+    const auto before = peak();
+    const PlanesResult result = read_planes(file(name, bytes), "", 4 * plenty);
+    EXPECT_NE(result.error, "") << name;
+    EXPECT_LT(peak() - before, 100) << name;
+  }
+}
+
+}  // namespace UNNAMED
 }  // namespace tyndall::image

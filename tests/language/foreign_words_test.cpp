@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "cases.h"
-#include "resolve/statements.h"
+#include "resolve/statements/statements.h"
 #include "syntax/foreign_words.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using syntax::ForeignUse;
 using syntax::ForeignWord;
@@ -56,7 +56,7 @@ TEST(ForeignWords, KindsOfLightsAndCameras) {
 // A thing for each row: the first in the table that has the parameter which the help names.
 TEST(ForeignWords, Parameters) {
   syntax::Symbols symbols;
-  const resolve::Statements statements(symbols);
+  const resolve::Statements statements(resolve::all_statements(), symbols);
   for (const ForeignWord& row : syntax::foreign_words(ForeignUse::parameter)) {
     bool told = false;
     for (const resolve::Statement& statement : statements.rows()) {
@@ -87,10 +87,16 @@ TEST(ForeignWords, UnitsJoinedAndParted) {
   }
 }
 
+TEST(ForeignWords, BetweenValues) {
+  for (const ForeignWord& row : syntax::foreign_words(ForeignUse::between))
+    for (const char* right : {"4", "#fff", "pi"})
+      expect_help(fmt::format("let _a = 3 {} {}", row.word, right), row.help);
+}
+
 // No word of the language itself is in the tables for the same use.
 TEST(ForeignWords, AreForeign) {
   syntax::Symbols symbols;
-  const resolve::Statements statements(symbols);
+  const resolve::Statements statements(resolve::all_statements(), symbols);
   for (const resolve::Statement& row : statements.rows())
     EXPECT_EQ(syntax::help_for_foreign_word(ForeignUse::statement, row.name.substr(0, row.name.find(' '))),
               "")

@@ -9,7 +9,7 @@
 #include "cases.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 

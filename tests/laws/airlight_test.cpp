@@ -7,7 +7,7 @@
 #include "support/ways.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 using render::Distance;

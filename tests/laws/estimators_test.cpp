@@ -2,11 +2,12 @@
 // 65536 independent estimates each; a comparison accepts 4 standard errors (significance 6e-5), seed 1.
 #include <gtest/gtest.h>
 
-#include "render/estimators.h"
+#include "render/transmittance/transmittance_estimators.h"
 #include "support/transmittance_measure.h"
+#include "support/ways.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 using render::Transmittance;
@@ -81,11 +82,11 @@ TEST(PowerSeries, IsUnbiasedForTwoPointEstimates) {
 // whose variance is only that of random points.
 TEST(RatioTransmittance, IsUnbiased) {
   for (const KnownDensity& known : transmittance_densities())
-    for (const Transmittance method : {Transmittance::ratio, Transmittance::residual_ratio}) {
+    for (const auto& [name, method] : all_transmittances()) {
+      if (!render::by_ratio(method)) continue;
       const TransmittanceMeasure m = measure_transmittance(known, method, 0.1, estimates);
       const double truth = std::exp(-known.tau);
-      EXPECT_NEAR(m.mean, truth, 4 * m.standard_error + 1e-6 * truth)
-          << known.name << (method == Transmittance::ratio ? ", ratio" : ", residual ratio");
+      EXPECT_NEAR(m.mean, truth, 4 * m.standard_error + 1e-6 * truth) << known.name << ", " << name;
       EXPECT_LT(m.standard_error, 0.05 * truth) << known.name;
     }
 }

@@ -6,7 +6,7 @@
 #include "support/measure.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 

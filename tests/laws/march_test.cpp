@@ -1,13 +1,12 @@
 // The march itself: what one stored march holds, and what its offset averages to.
-#include "render/march.h"
+#include "render/march/ray_march.h"
 
 #include <gtest/gtest.h>
 
-#include "render/worker.h"
 #include "support/law_scenes.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 
@@ -25,12 +24,14 @@ TEST(March, OpticalDepthIsUnbiasedOverItsJitter) {
       SceneBuilder builder = known_density(known);
       builder.step(step);
       const compile::CompiledScene world = compile::compile(builder.scene);
-      render::Worker worker;
+      render::ThreadContext thread;
+      render::RayMarcher marcher;
       render::March march;
       double sum = 0, squares = 0, largest = 0;
       constexpr std::uint32_t seeds = 4096;
       for (std::uint32_t k = 0; k < seeds; ++k) {
-        render::march(world, ray_of(world, known), compile::RayKind::camera, k * 0x9e3779b9u, worker, march);
+        marcher.march(world, {ray_of(world, known), compile::RayKind::camera, k * 0x9e3779b9u, &march},
+                      thread);
         const double error = optical_depth(march) - known.tau;
         sum += error;
         squares += error * error;
@@ -49,9 +50,10 @@ TEST(March, TransmittanceFallsAndMultiplies) {
     SceneBuilder builder = known_density(known);
     builder.step(0.05);
     const compile::CompiledScene world = compile::compile(builder.scene);
-    render::Worker worker;
+    render::ThreadContext thread;
+    render::RayMarcher marcher;
     render::March march;
-    render::march(world, ray_of(world, known), compile::RayKind::camera, 3, worker, march);
+    marcher.march(world, {ray_of(world, known), compile::RayKind::camera, 3, &march}, thread);
     ASSERT_GT(march.count, 10u) << known.name;
     double product = 1;
     for (std::uint32_t i = 0; i < march.count; ++i) {

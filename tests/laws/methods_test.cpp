@@ -8,7 +8,7 @@
 #include "support/ways.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 class Methods : public testing::TestWithParam<int> {};

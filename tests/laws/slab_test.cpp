@@ -8,7 +8,7 @@
 #include "support/measure.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 

@@ -1,5 +1,6 @@
 // Every way of sampling gives the same picture: strategies, numbers of light samples, and media in three
 // spellings.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -9,51 +10,44 @@
 #include "support/measure.h"
 #include "support/scene_builder.h"
 #include "support/scene_text.h"
+#include "support/ways.h"
 
 namespace tyndall::support {
-namespace {
+namespace UNNAMED {
 
 // Coloured fog with a forward phase over a floor, lit by one light; the camera stands inside the fog.
-SceneBuilder foggy(const optics::Light& light, int bounces) {
+SceneBuilder foggy(const scene::Light& light, int bounces, bool varies) {
   SceneBuilder b;
-  b.image(8, 8, 64).bounces(bounces).perspective({0, 0, 6}, {0, 0, 0}, 35);
-  b.volume(scene::Box{{-8, -2, -8}, {8, 8, 8}},
-           b.constant({.sigma_t = Rgb(0.4f, 0.3f, 0.2f), .albedo = Rgb(0.8f), .phase = hg(0.6f)}));
+  b.image(8, 8, bounces > 0 ? 128 : 64).bounces(bounces).step(0.4).perspective({0, 0, 6}, {0, 0, 0}, 35);
+  const MediumColors colors{.sigma_t = Rgb(0.4f, 0.3f, 0.2f), .albedo = Rgb(0.8f), .phase = hg(0.6f)};
+  b.volume(
+      scene::Box{{-8, -2, -8}, {8, 8, 8}},
+      varies ? b.shader(colors, [](const Point& p) { return p.x * p.x * 0.3f + 0.2f; }) : b.constant(colors));
   b.surface(scene::Plane{{0, -1, 0}, {0, 1, 0}}, Rgb(0.7f))
       .surface(scene::Sphere{{0.6, -0.4, 1}, 0.4}, Rgb(0.5f));
   b.light(light);
   return b;
 }
 
-optics::PointLight point() {
-  optics::PointLight l;
+scene::PointLight point() {
+  scene::PointLight l;
   l.position = {-0.5, 0.4, 0.5};
   l.power = Rgb(60);
   return l;
 }
-optics::PointLight point_above() {
-  optics::PointLight l;
+scene::PointLight point_above() {
+  scene::PointLight l;
   l.position = {-0.5, 16, 0.5};
   l.power = Rgb(20000);
   return l;
 }
-optics::SphereLight sphere() {
-  optics::SphereLight l;
-  l.center = {-0.5, 0.4, 0.5};
-  l.radius = 0.3;
-  l.power = Rgb(60);
-  return l;
+scene::AreaLight sphere() { return {scene::Sphere{{-0.5, 0.4, 0.5}, 0.3}, Rgb(60), {}}; }
+scene::AreaLight quad() { return {scene::Quad{{-0.5, 1.2, 0.5}, {0.4, 0, 0}, {0.1, 0, 0.4}}, Rgb(60), {}}; }
+scene::AreaLight cylinder() {
+  return {scene::Cylinder{{-0.7, 0.4, 0.5}, {-0.2, 0.6, 0.5}, 0.15}, Rgb(60), {}};
 }
-optics::QuadLight quad() {
-  optics::QuadLight l;
-  l.center = {-0.5, 1.2, 0.5};
-  l.u = {0.4, 0, 0};
-  l.v = {0.1, 0, 0.4};
-  l.power = Rgb(60);
-  return l;
-}
-optics::DistantLight disc() {
-  optics::DistantLight l;
+scene::DistantLight disc() {
+  scene::DistantLight l;
   l.direction = {0.3, -1, -0.4};
   l.irradiance = Rgb(3);
   l.angle.radians = 0.3;
@@ -65,41 +59,36 @@ optics::DistantLight disc() {
 // what density sampling gathers has no finite integral (1/d^4 over a volume), so it has no standard error to
 // be judged by: it is compared with the light above the fog.
 TEST(Strategies, Agree) {
-  const std::pair<const char*, optics::Light> lights[] = {{"point", point()},
-                                                          {"point above", point_above()},
-                                                          {"sphere", sphere()},
-                                                          {"quad", quad()},
-                                                          {"disc", disc()}};
+  const std::pair<const char*, scene::Light> lights[] = {
+      {"point", point()}, {"point above", point_above()}, {"sphere", sphere()},
+      {"quad", quad()},   {"cylinder", cylinder()},       {"disc", disc()}};
   for (const auto& [name, light] : lights)
-    for (const int bounces : {0, 2}) {
-      const scene::Scene scene = foggy(light, bounces).scene;
+    for (const auto& [bounces, varies] : {std::pair{0, false}, {2, false}, {0, true}}) {
+      const scene::Scene scene = foggy(light, bounces, varies).scene;
       const Estimate mixed = measure(scene).whole();
-      for (const render::Distance distance : {render::Distance::mis, render::Distance::density,
-                                              render::Distance::equiangular, render::Distance::product}) {
+      for (const auto& [strategy, distance] : all_distances()) {
         if (distance == render::Distance::density && std::string_view(name) == "point") continue;
         for (const int light_samples : {1, 4}) {
           scene::Scene other = scene;
           other.settings.light_samples = light_samples;
-          other.settings.samples = light_samples == 1 ? 64 : 16;
+          other.settings.samples = scene.settings.samples / light_samples;
           render::RenderOptions options;
           options.distance = distance;
           expect_same(measure(other, options).whole(), mixed, 0, 0.05,
-                      std::string(name) + ", bounces " + std::to_string(bounces) + ", strategy " +
-                          std::to_string(static_cast<int>(distance)) + ", light samples " +
-                          std::to_string(light_samples));
+                      fmt::format("{}, bounces {}, {} fog, strategy {}, light samples {}", name, bounces,
+                                  varies ? "varying" : "even", strategy, light_samples));
         }
       }
     }
 }
 
-scene::Scene fog_of(const std::string& body, bool fold) {
+scene::Scene fog_of(const std::string& medium, bool fold) {
   resolve::Options options;
   options.shader.fold = fold;
-  return scene_of(R"(
+  return scene_of(medium + R"(
 render { resolution: (8, 8)  samples: 64  step: 0.1  bounces: 3 }
 camera perspective { from: (0, 0, 5)  to: (0, 0, 0)  fov: 35deg }
-volume { in: sphere { radius: 1 }  medium: { )" +
-                      body + R"( } }
+volume { in: sphere { radius: 1 }  medium: fog }
 light sphere { center: (2, 2, 2)  radius: 0.5  radiance: 100 }
 light environment { radiance: 0.2 }
 )",
@@ -110,17 +99,23 @@ light environment { radiance: 0.2 }
 // with folding off: one picture.
 TEST(OneMedium, ThreeWaysOfWritingItOnePicture) {
   const auto computed = [](const std::string& half) {
-    return "let half = smoothstep(0, 1, " + half + R"()
-    var sum = 0
-    for i in 1..4 { sum = sum + i * half }
-    density = if sum > 4 then sum / 5 else sqrt(-1)
-    albedo = mix((1, 1, 1), (0.8, 0.6, 0.4), half)
-    extinction = (2, 1.5, 1)
-    phase = hg(0.4))";
+    return fmt::format(R"(
+medium fog() {{
+  let half = smoothstep(0, 1, {})
+  var sum = 0
+  for i in 1..4 {{ sum = sum + i * half }}
+  density = if sum > 4 then sum / 5 else sqrt(-1)
+  albedo = mix((1, 1, 1), (0.8, 0.6, 0.4), half)
+  extinction = (2, 1.5, 1)
+  phase = hg(0.4)
+}}
+)",
+                       half);
   };
-  const scene::Scene written = fog_of(
-                         "density = 1  albedo = (0.9, 0.8, 0.7)  extinction = (2, 1.5, 1)  phase = hg(0.4)",
-                         true),
+  const scene::Scene written = fog_of(R"(
+medium fog() { density = 1  albedo = (0.9, 0.8, 0.7)  extinction = (2, 1.5, 1)  phase = hg(0.4) }
+)",
+                                      true),
                      folded = fog_of(computed("0.5"), true), kept = fog_of(computed("0.5 + 0 * p.x"), false);
   EXPECT_TRUE(folded.media[0].full.lane_code.empty());
   EXPECT_FALSE(kept.media[0].full.lane_code.empty());
@@ -143,5 +138,5 @@ TEST(OneMedium, TwoSpellingsOnePicture) {
   expect_same(lit(true), lit(false), 0, 0.01, "marched against closed form");
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::support

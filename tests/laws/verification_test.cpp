@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace tyndall::support {
-namespace {
+namespace UNNAMED {
 
 class Verification : public testing::TestWithParam<std::string> {};
 

@@ -6,7 +6,7 @@
 #include "support/measure.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 
@@ -24,7 +24,7 @@ TEST(SphereInWhiteEnvironment, PublishedRowThroughAShader) {
   expect_truth(measure(builder.scene).whole(), white_sphere_square(row), 5e-6, 0.005, "shader");
 }
 
-// Every block of 8×8 pixels is 1 to 4 standard errors. Free flight, pass-through and shadow transmittance
+// Every block of 8×8 pixels is 1 to 4 standard errors. Free paths, pass-through and shadow transmittance
 // come from marches of one expectation, so it holds at any step.
 void expect_white(const SceneBuilder& builder, double power, const std::string& what) {
   const Measurement measurement = measure(builder.scene);
@@ -60,6 +60,20 @@ TEST(WhiteFurnace, HenyeyGreenstein) {
     SceneBuilder builder = furnace();
     builder.volume(scene::Sphere{{}, 1}, builder.constant(white(3, g)));
     expect_white(builder, 0.01, "g " + std::to_string(g));
+  }
+}
+
+// At the middles of their parameters' ranges.
+TEST(WhiteFurnace, EveryPhaseFunction) {
+  for (const optics::PhaseInfo& function : optics::phase_functions()) {
+    MediumColors colors = white(3, 0);
+    colors.phase.kind = function.kind;
+    for (std::size_t k = 0; k < function.parameters.size(); ++k)
+      colors.phase.parameters[k].value =
+          static_cast<float>((function.parameters[k].lowest + function.parameters[k].highest) / 2);
+    SceneBuilder builder = furnace();
+    builder.volume(scene::Sphere{{}, 1}, builder.constant(colors));
+    expect_white(builder, 0.01, std::string(function.keyword));
   }
 }
 
@@ -117,5 +131,5 @@ TEST(LambertianBox, IsWhiteInside) {
     }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall

@@ -6,26 +6,34 @@
 #include <random>
 
 #include "base/numerics.h"
-#include "optics/light_sampling.h"
 #include "optics/sky.h"
 
 namespace tyndall::optics {
-namespace {
+namespace UNNAMED {
 
-EnvironmentLight sky_of(int width, int height, const std::function<Rgb(int x, int y)>& texel) {
-  EnvironmentLight light;
-  light.radiance.color = Rgb(1);
+struct Picture {
+  SkyRadiance radiance;
+  Transform world_from_picture{};
+  Rgb radiance_in(const Vec3d& direction) const {
+    return sky_radiance(radiance, world_from_picture, direction);
+  }
+  Sky sky() const { return {radiance, world_from_picture}; }
+};
+
+Picture sky_of(int width, int height, const std::function<Rgb(int x, int y)>& texel) {
+  Picture picture;
+  picture.radiance.color = Rgb(1);
   for (std::size_t c = 0; c < 3; ++c) {
     std::vector<float> texels;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) texels.push_back(texel(x, y)[c]);
-    light.radiance.picture[c] = make_plane("sky", width, height, std::move(texels));
+    picture.radiance.picture[c] = make_plane("sky", width, height, std::move(texels));
   }
-  return light;
+  return picture;
 }
 
 // A dim pattern with suns of a few texels, one of them at the seam, and black regions.
-EnvironmentLight sunny(int width, int height) {
+Picture sunny(int width, int height) {
   return sky_of(width, height, [&](int x, int y) {
     const int size = 1 + width / 30;  // of the suns, across
     if (x < size && y == height / 2) return Rgb(300, 200, 100);
@@ -37,28 +45,26 @@ EnvironmentLight sunny(int width, int height) {
 
 // The middle of the picture is -z, its top +y, its right three quarters +x; rotations turn it about y.
 TEST(Sky, ShowsItsPictureTheRightWayRound) {
-  EnvironmentLight light =
+  Picture picture =
       sky_of(8, 4, [](int x, int y) { return Rgb(static_cast<float>(x), static_cast<float>(y), 1); });
-  EXPECT_NEAR(sky_radiance(light, {0, 0, -1}).x, 3.5, 1e-5);
-  EXPECT_NEAR(sky_radiance(light, {0, 0, -1}).y, 1.5, 1e-5);
-  EXPECT_NEAR(sky_radiance(light, {1, 0, 0}).x, 5.5, 1e-5);
-  EXPECT_NEAR(sky_radiance(light, {-1, 0, 0}).x, 1.5, 1e-5);
-  EXPECT_NEAR(sky_radiance(light, {0, 1, 0}).y, 3, 1e-5);
-  EXPECT_NEAR(sky_radiance(light, {0, -1, 0}).y, 0, 1e-5);
-  light.rotation.radians = pi / 2;  // what was at -z is at -x
-  EXPECT_NEAR(sky_radiance(light, {-1, 0, 0}).x, 3.5, 1e-5);
-  light.world_from_sky = Transform::rotate({1, 0, 0}, pi / 2);  // then -z goes to +y
-  light.rotation.radians = 0;
-  EXPECT_NEAR(sky_radiance(light, {0, 1, 0}).x, 3.5, 1e-5);
+  EXPECT_NEAR(picture.radiance_in({0, 0, -1}).x, 3.5, 1e-5);
+  EXPECT_NEAR(picture.radiance_in({0, 0, -1}).y, 1.5, 1e-5);
+  EXPECT_NEAR(picture.radiance_in({1, 0, 0}).x, 5.5, 1e-5);
+  EXPECT_NEAR(picture.radiance_in({-1, 0, 0}).x, 1.5, 1e-5);
+  EXPECT_NEAR(picture.radiance_in({0, 1, 0}).y, 3, 1e-5);
+  EXPECT_NEAR(picture.radiance_in({0, -1, 0}).y, 0, 1e-5);
+  picture.world_from_picture = Transform::rotate({0, 1, 0}, pi / 2);  // what was at -z is at -x
+  EXPECT_NEAR(picture.radiance_in({-1, 0, 0}).x, 3.5, 1e-5);
+  picture.world_from_picture = Transform::rotate({1, 0, 0}, pi / 2);  // then -z goes to +y
+  EXPECT_NEAR(picture.radiance_in({0, 1, 0}).x, 3.5, 1e-5);
 }
 
 // Pearson's statistic over cells of equal solid angle that have nothing to do with the picture's own.
 TEST(Sky, DrawsWithTheDensityItTells) {
   for (const auto& [width, height] : {std::pair{16, 8}, {37, 19}, {2101, 9}}) {
-    EnvironmentLight light = sunny(width, height);
-    light.rotation.radians = 1;
-    light.world_from_sky = Transform::rotate({1, 2, 0}, 0.7);
-    const Sky sky(light);
+    Picture picture = sunny(width, height);
+    picture.world_from_picture = Transform::rotate({1, 2, 0}, 0.7) * Transform::rotate({0, 1, 0}, 1);
+    const Sky sky = picture.sky();
     constexpr int rows = 12, columns = 20, fine = 60, draws = 40000;
     std::vector<double> expected(rows * columns), found(rows * columns);
     double whole = 0, radiance = 0;
@@ -70,7 +76,7 @@ TEST(Sky, DrawsWithTheDensityItTells) {
         const double share = sky.pdf(w) * solid_angle;
         expected[static_cast<std::size_t>(i / fine * columns + j / fine)] += draws * share;
         whole += share;
-        const Rgb l = sky_radiance(light, w);
+        const Rgb l = picture.radiance_in(w);
         radiance += (double{l.x} + l.y + l.z) / 3 * solid_angle;
       }
     EXPECT_NEAR(whole, 1, 0.01);
@@ -98,28 +104,21 @@ TEST(Sky, DrawsWithTheDensityItTells) {
   }
 }
 
-// The mean of a light sample's weight is the integral of the radiance, without noise where the picture is
+// The mean of radiance over density is the integral of the radiance, without noise where the picture is
 // smooth.
 TEST(Sky, SamplesGiveItsIrradiance) {
-  EnvironmentLight light = sunny(64, 32);
-  light.sky = std::make_shared<const Sky>(light);
+  const Picture picture = sunny(64, 32);
+  const Sky sky = picture.sky();
   std::mt19937_64 random(5);
   std::uniform_real_distribution<float> uniform(0, 1);
   double sum = 0;
   constexpr int draws = 100000;
   for (int k = 0; k < draws; ++k) {
-    const auto drawn = sample_light(light, {}, {}, uniform(random), uniform(random));
-    if (drawn)
-      sum += (drawn->radiance_over_pdf.x + drawn->radiance_over_pdf.y + drawn->radiance_over_pdf.z) / 3;
+    const Sky::Drawn drawn = sky.sample(uniform(random), uniform(random));
+    const Rgb l = picture.radiance_in(drawn.direction);
+    sum += (l.x + l.y + l.z) / (3 * drawn.pdf_solid_angle);
   }
-  EXPECT_NEAR(sum / draws / light.sky->total(), 1, 0.01);
-}
-
-TEST(Sky, BlackPicturesAreNotDrawn) {
-  EnvironmentLight light = sky_of(4, 2, [](int, int) { return Rgb(0); });
-  light.sky = std::make_shared<const Sky>(light);
-  EXPECT_FALSE(sample_light(light, {}, {}, 0.5f, 0.5f));
-  EXPECT_EQ(pdf_light(light, {}, {0, 0, -1}, {}, {}), 0);
+  EXPECT_NEAR(sum / draws / sky.total(), 1, 0.01);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "optics/surface_model.h"
 
 namespace tyndall::optics {
-namespace {
+namespace UNNAMED {
 
 const AlbedoTables& tables() {
   static const AlbedoTables made(std::vector<double>{1.1, 1.33, 1.5, 2.4});
@@ -54,6 +54,8 @@ std::vector<Case> white_cases() {
     add("pane", 1.5, true, 0, [](auto& p) { p.transmission = 1; });
     add("half glass", 1.5, false, 0, [](auto& p) { p.transmission = 0.5f, p.specular = 1; });
     add("half metal", 1.5, false, 0, [](auto& p) { p.metallic = 0.5f, p.specular = 1; });
+    add("lacquer of that roughness", 1.5, false, 0,
+        [](auto& p) { p.coat = 1, p.coat_roughness = p.roughness; });
     // Lost are reflections out of layers whose two directions pass the layer above unequally.
     add("lacquered gloss", 1.5, false, 0.05, [](auto& p) { p.specular = 1, p.coat = 1; });
     add("lacquered metal", 1.5, false, 0.1, [](auto& p) { p.metallic = 1, p.coat = 1; });
@@ -74,6 +76,8 @@ std::vector<Case> coloured_cases() {
       list.push_back({fmt::format("{} roughness {} eta {:.3g}", name, roughness, eta), p, eta, sheet});
     };
     add("gloss", 1.5, false, [](auto& p) { p.specular = 1; });
+    add("coloured gloss", 1.5, false, [](auto& p) { p.specular = 1, p.specular_color = Rgb(9, 2, 0.5f); });
+    add("rough lacquer", 1.5, false, [](auto& p) { p.coat = 1, p.coat_roughness = p.roughness; });
     add("metal", 1.5, false, [](auto& p) { p.metallic = 1; });
     add("glass", 1.5, false, [](auto& p) { p.transmission = 1; });
     add("glass", 1 / 1.5, false, [](auto& p) { p.transmission = 1; });
@@ -119,6 +123,27 @@ TEST(Surface, WhiteStaysWhiteInAWhiteRoom) {
       EXPECT_LT(returned, 1 + bound) << c.name << " at cosine " << cosine;
       EXPECT_GT(returned, 1 - bound - c.loss) << c.name << " at cosine " << cosine;
     }
+}
+
+// A coloured gloss takes the colour at normal incidence alone, where glTF has f0 = min(0.04 c, 1), and
+// returns no more than it gets.
+TEST(Surface, ColoursItsGlossAtNormalIncidence) {
+  SurfaceParameters p = white();
+  p.base_color = Rgb(0);
+  p.specular = 1;
+  p.specular_color = Rgb(2, 1, 40);
+  const auto mirrored = [&](double cosine) {
+    return furnace({"gloss", p, 1.5, false}, direction(cosine, 0.3));
+  };
+  const Vec3d ahead = mirrored(1);
+  EXPECT_NEAR(ahead.x, 0.08, 1e-6);
+  EXPECT_NEAR(ahead.y, 0.04, 1e-6);
+  EXPECT_NEAR(ahead.z, 1, 1e-6);
+  const double schlick = std::pow(1 - 0.1, 5);
+  EXPECT_NEAR(mirrored(0.1).y, 0.04 + 0.96 * schlick, 1e-6);
+  EXPECT_NEAR(mirrored(0.1).x, 0.08 + 0.92 * schlick, 1e-6);
+  p.base_color = Rgb(1);
+  for (const double cosine : {0.2, 0.6, 1.0}) EXPECT_LE(max_component(mirrored(cosine)), 1.005);
 }
 
 // The same light the other way round: f(o → i) / η² of its side. Relative error of rounding only.
@@ -193,8 +218,8 @@ TEST(Surface, SamplesFollowTheirDensity) {
         chi2 += sqr(counts[k] - e) / e, ++cells;
       }
       if (joined >= 8) chi2 += sqr(joined_count - joined) / joined, ++cells;
-      const double k = cells - 1, z = 3.6;  // normal quantile of 1 - 0.01/63
-      ASSERT_LE(cases.size() * 3, 63u);
+      const double k = cells - 1, z = 3.66;  // normal quantile of 1 - 0.01/81
+      ASSERT_LE(cases.size() * 3, 81u);
       EXPECT_LT(chi2, k * std::pow(1 - 2 / (9 * k) + z * std::sqrt(2 / (9 * k)), 3))
           << c.name << " " << cosine;
     }

@@ -1,5 +1,5 @@
 // Adaptive sampling: counts that do not lean on the samples they sum.
-#include "render/adaptive.h"
+#include "render/film/adaptive_sampling.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "base/numerics.h"
 
 namespace tyndall::render {
-namespace {
+namespace UNNAMED {
 
 // A pixel whose light comes in rare, bright samples: mean 1.
 double firefly(std::mt19937_64& random) {
@@ -18,14 +18,14 @@ double firefly(std::mt19937_64& random) {
 }
 constexpr double firefly_mean = 1e-4 * 5000.5 + (1 - 1e-4) * 0.5;
 
-// A block of pixels, sampled as the plan says; its mean and its samples a pixel.
+// A block of pixels, sampled as the plan says; its mean and its samples per pixel.
 struct Block {
   double mean = 0, samples = 0;
 };
 Block sample_block(std::mt19937_64& random, double target, int most) {
   const std::vector<Tile> tiles{{0, 0, 8, 8}};
   Film film(8, 8, error_groups);
-  AdaptivePlan plan(1, target, most);
+  AdaptivePlan plan(tiles, target, most);
   while (!plan.done()) {
     for (int half = 0; half < 2; ++half) {
       const SampleRun run = plan.run(0, half);
@@ -51,8 +51,9 @@ Block sample_block(std::mt19937_64& random, double target, int most) {
 double sample_block_from_itself(std::mt19937_64& random, double target, int most) {
   double sums[64] = {}, squares[64] = {};
   int n = 0;
-  for (double error = infinity; n < most && (n < AdaptivePlan::least_samples || error > target * target);) {
-    const int count = n == 0 ? AdaptivePlan::least_samples : n / 2;
+  for (double error = infinity;
+       n < most && (n < AdaptivePlan::least_samples(64) || error > target * target);) {
+    const int count = n == 0 ? AdaptivePlan::least_samples(64) : n / 2;
     for (int i = 0; i < 64; ++i)
       for (int k = 0; k < count; ++k) {
         const double v = firefly(random);
@@ -94,7 +95,7 @@ TEST(Adaptive, IsNotBiasedByFireflies) {
   });
   EXPECT_LT(std::abs(mean - firefly_mean), 4 * error) << "seed 7, standard error " << error;
   EXPECT_LT(error, 0.04);
-  EXPECT_GT(samples, 1.25 * AdaptivePlan::least_samples) << "some blocks went on";
+  EXPECT_GT(samples, 1.25 * AdaptivePlan::least_samples(64)) << "some blocks went on";
   EXPECT_LT(samples, 900);
 }
 
@@ -135,7 +136,7 @@ Reached reach(const Light& light, double target, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const std::vector<Tile> tiles{{0, 0, 16, 16}, {16, 0, 32, 16}};
   Film film(width, height, error_groups);
-  AdaptivePlan plan(tiles.size(), target, 2048);
+  AdaptivePlan plan(tiles, target, 2048);
   while (!plan.done()) {
     for (std::size_t i = 0; i < tiles.size(); ++i)
       for (int half = 0; half < 2; ++half) {

@@ -1,7 +1,9 @@
 // Numbers of bodies out of their range, over the tables of outputs: the picture is that of the limited
 // number, and the guilty output is told once, and no other.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -10,7 +12,7 @@
 #include "support/scene_text.h"
 
 namespace tyndall::render {
-namespace {
+namespace UNNAMED {
 
 using support::scene_of;
 
@@ -108,6 +110,80 @@ TEST(BadValues, AreTakenAsToldAndOnlyTheGuiltyOutputIs) {
   }
 }
 
+// The statement of a row's body that has its VALUE.
+std::string statement_of(const Row& row) {
+  const std::size_t value = row.body.find("VALUE");
+  const std::size_t before = row.body.rfind("  ", value),
+                    begin = before == std::string::npos ? 0 : before + 2;
+  return row.body.substr(begin, row.body.find("  ", value) - begin);
+}
+
+// Where two branches set an output, the statements that gave something bad are told, each once, and no other.
+TEST(BadValues, AreToldAtTheBranchThatGaveThem) {
+  for (const Row& row : rows()) {
+    if (row.bad == "4 * p.x") continue;  // below and above
+    const std::string statement = statement_of(row);
+    for (const auto& [first_bad, second_bad] : {std::pair{true, false}, {false, true}, {true, true}}) {
+      const auto branch = [&](bool is_bad) {
+        std::string text = statement;
+        return text.replace(text.find("VALUE"), 5, is_bad ? row.bad : row.limited);
+      };
+      const std::string first = branch(first_bad), second = branch(second_bad);
+      std::string body = row.body;
+      body.replace(body.find(statement), statement.size(),
+                   "if p.y > 0 { " + first + " } else { " + second + " }");
+      const std::string text = row.material ? ball(body) : fog(body);
+      std::vector<std::size_t> expected;
+      if (first_bad) expected.push_back(text.find("{ " + first + " }") + 2);
+      if (second_bad) expected.push_back(text.find("else { " + second + " }") + 7);
+      std::vector<std::size_t> told;
+      for (const BadValue& bad : render(compile::compile(scene_of(text)), {}).statistics.bad_values) {
+        EXPECT_EQ(bad.output, row.output) << text;
+        told.push_back(bad.span.begin);
+      }
+      std::sort(told.begin(), told.end());
+      EXPECT_EQ(told, expected) << text;
+    }
+  }
+}
+
+// Branches within branches, and an output whose components are bad alike.
+TEST(BadValues, AreToldAtTheInnermostBranch) {
+  const std::string text =
+      fog("if p.y > 0 { if p.x > 0 { density = 1 } else { density = -1 - p.x^2 } }\n"
+          "else { if p.x > 0 { density = -2 - p.x^2 } else { density = 2 } }\n"
+          "albedo = (2 + p.x, 3 + p.y, 4 + p.z)");
+  std::vector<std::size_t> told;
+  for (const BadValue& bad : render(compile::compile(scene_of(text)), {}).statistics.bad_values)
+    told.push_back(bad.span.begin);
+  std::sort(told.begin(), told.end());
+  EXPECT_EQ(told, (std::vector{text.find("density = -1"), text.find("density = -2"), text.find("albedo")}));
+}
+
+// Statements that give one and the same number are told each.
+TEST(BadValues, OfAllStatementsAreToldAtOnce) {
+  for (const char* others : {"emission = -1 - p.x^2  albedo = 0.5", "scattering = -1 - p.x^2  absorption = 1",
+                             "scattering = 1  absorption = -1 - p.x^2"}) {
+    const RenderResult result =
+        render(compile::compile(scene_of(fog(std::string("density = -1 - p.x^2  ") + others))), {});
+    EXPECT_EQ(result.statistics.bad_values.size(), 2u) << others;
+  }
+}
+
+TEST(BadValues, AnInfiniteNormalIsNotCalledUndefined) {
+  const auto told = [](const std::string& normal) {
+    return render(compile::compile(scene_of(ball("base_color = 0.5  normal = " + normal))), {})
+        .statistics.bad_values;
+  };
+  const std::vector<BadValue> infinite = told("n / max(p.x - 9, 0)"),
+                              undefined = told("n * sqrt(-1 - p.x^2)");
+  ASSERT_EQ(infinite.size(), 1u);
+  ASSERT_EQ(undefined.size(), 1u);
+  EXPECT_EQ(infinite[0].kind, BadValue::Kind::above);
+  EXPECT_EQ(undefined[0].kind, BadValue::Kind::undefined);
+  EXPECT_TRUE(infinite[0].instead && undefined[0].instead);
+}
+
 // White fog cannot give more than it gets, whatever its albedo claims.
 TEST(BadValues, AnAlbedoAboveOneMakesNoEnergy) {
   const RenderResult result =
@@ -143,14 +219,12 @@ TEST(BadValues, AnIndexOfRefractionIsToldToo) {
 // Samples that the film cannot hold are counted; ordinary ones lose nothing that is told.
 TEST(FilmRange, WhatItLosesIsCounted) {
   const auto statistics = [](const std::string& power) {
-    return render(compile::compile(
-                      scene_of("render { resolution: (2, 2)  samples: 4  bounces: 0 }\n"
-                               "camera orthographic { from: (0, 1, 0)  to: (0, 0, 0)  up: (0, 0, 1)  "
-                               "height: 0.001 }\n"
-                               "plane { point: (0, 0, 0)  normal: (0, 1, 0)  material: { base_color = "
-                               "0.5 } }\n"
-                               "light point { position: (0, 2, 0)  power: " +
-                               power + " }\n")),
+    return render(compile::compile(scene_of(fmt::format("let power = {}\n", power) + R"(
+render { resolution: (2, 2)  samples: 4  bounces: 0 }
+camera orthographic { from: (0, 1, 0)  to: (0, 0, 0)  up: (0, 0, 1)  height: 0.001 }
+plane { point: (0, 0, 0)  normal: (0, 1, 0)  material: { base_color = 0.5 } }
+light point { position: (0, 2, 0)  power: power }
+)")),
                   {})
         .statistics;
   };

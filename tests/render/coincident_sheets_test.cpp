@@ -1,50 +1,55 @@
 // Sheets in one place that light goes through in part: each takes its share, of camera rays, of shadow rays
 // and by every method.
 // Significance 0.0012 for each comparison, seeds 1 to 16 (support/measure.h).
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
+#include "support/filled.h"
 #include "support/measure.h"
 #include "support/scene_text.h"
+#include "support/ways.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
+using support::filled;
+using support::repeated;
 using support::scene_of;
 
-constexpr int sheets = 100;
-const double let_through = std::pow(1 - 0.01, sheets);  // 0.366
+const double let_through = std::pow(1 - 0.01, 100);  // 0.366
 
-std::string stacked(const std::string& shape) {
-  return fmt::format("for i in 0..<{} {{ {} }}\n", sheets, shape);
-}
-
-std::string repeated(const std::string& text, int times) {
-  std::string all;
-  for (int i = 0; i < times; ++i) all += text;
-  return all.substr(0, all.size() - 2);
-}
-
-// What the same sheets are as, all in one plane.
+// What a hundred sheets are as, all in one plane.
 const std::pair<std::string, std::string> kinds[] = {
-    {"quads", stacked("quad { center: (0, 0, 0)  u: (2, 0, 0)  v: (0, 0, -2)  material: gauze }")},
-    {"disks", stacked("disk { center: (0, 0, 0)  normal: (0, 1, 0)  radius: 2  material: gauze }")},
-    {"planes", stacked("plane { point: (0, 0, 0)  normal: (0, 1, 0)  material: gauze }")},
-    {"objects", "object sheet { quad { center: (0, 0, 0)  u: (2, 0, 0)  v: (0, 0, -2)  material: gauze } }" +
-                    stacked("place sheet {}")},
-    {"a mesh", "mesh { points: [(-2, 0, -2), (2, 0, -2), (0, 0, 3)]  triangles: [" +
-                   repeated("(0, 1, 2), ", sheets) + "]  material: gauze }"},
+    {"quads",
+     "for i in 0..<100 { quad { center: (0, 0, 0)  u: (2, 0, 0)  v: (0, 0, -2)  material: gauze } }"},
+    {"disks",
+     "for i in 0..<100 { disk { center: (0, 0, 0)  normal: (0, 1, 0)  radius: 2  material: gauze } }"},
+    {"planes", "for i in 0..<100 { plane { point: (0, 0, 0)  normal: (0, 1, 0)  material: gauze } }"},
+    {"objects", R"(
+object sheet { quad { center: (0, 0, 0)  u: (2, 0, 0)  v: (0, 0, -2)  material: gauze } }
+for i in 0..<100 { place sheet {} }
+)"},
+    {"a mesh", filled(R"(
+mesh {
+  points: [(-2, 0, -2), (2, 0, -2), (0, 0, 3)]
+  triangles: [$TRIANGLES]
+  material: gauze
+}
+)",
+                      {{"TRIANGLES", repeated("(0, 1, 2), ", 100)}})},
 };
 
-std::string looked_through(const std::string& things) {
-  return "render { resolution: (4, 4)  samples: 4 }\n"
-         "camera orthographic { from: (0.3, 5, 0)  to: (0, 0, 0.1)  height: 0.5 }\n"
-         "light environment { radiance: 1 }\n"
-         "material gauze() { base_color = 0  opacity = 0.01 }\n" +
-         things;
+std::string looked_through(const std::string& sheets) {
+  return filled(R"(
+render { resolution: (4, 4)  samples: 4 }
+camera orthographic { from: (0.3, 5, 0)  to: (0, 0, 0.1)  height: 0.5 }
+light environment { radiance: 1 }
+material gauze() { base_color = 0  opacity = 0.01 }
+$SHEETS
+)",
+                {{"SHEETS", sheets}});
 }
 
 TEST(CoincidentSheets, EachTakesItsShareOfWhatIsBehind) {
@@ -55,12 +60,11 @@ TEST(CoincidentSheets, EachTakesItsShareOfWhatIsBehind) {
 }
 
 TEST(CoincidentSheets, ByEveryMethod) {
-  for (const render::Method method : {render::Method::decoupled, render::Method::brute_force,
-                                      render::Method::stochastic, render::Method::tracking}) {
+  for (const auto& [name, method] : support::all_methods()) {
     render::RenderOptions options;
     options.method = method;
     support::expect_truth(support::measure(scene_of(looked_through(kinds[0].second)), options).whole(),
-                          let_through, 1e-5, 0.06, fmt::format("method {}", static_cast<int>(method)));
+                          let_through, 1e-5, 0.06, name);
   }
 }
 
@@ -71,16 +75,16 @@ TEST(CoincidentSheets, EachTakesItsShareOfLight) {
                                   "light sphere { center: (0, 3, 0)  radius: 0.5  power: 10 }"})
     for (const auto& [name, things] : kinds) {
       const auto floor = [&](const std::string& above) {
-        return render::render(compile::compile(scene_of(
-                                  "render { resolution: (2, 2)  samples: 16  bounces: 0 }\n"
-                                  "camera orthographic { from: (0, -0.5, 0)  to: (0, -1, 0)  height: "
-                                  "0.01  up: (0, 0, 1) }\n"
-                                  "plane { point: (0, -1, 0)  normal: (0, 1, 0) }\n"
-                                  "material gauze() { base_color = 0  opacity = 0.01 }\n" +
-                                  light + above)),
-                              {})
-            .film.mean(0, 0)
-            .x;
+        const std::string text = filled(R"(
+render { resolution: (2, 2)  samples: 16  bounces: 0 }
+camera orthographic { from: (0, -0.5, 0)  to: (0, -1, 0)  height: 0.01  up: (0, 0, 1) }
+plane { point: (0, -1, 0)  normal: (0, 1, 0) }
+material gauze() { base_color = 0  opacity = 0.01 }
+$LIGHT
+$ABOVE
+)",
+                                        {{"LIGHT", light}, {"ABOVE", above}});
+        return render::render(compile::compile(scene_of(text)), {}).film.mean(0, 0).x;
       };
       const float lit = floor("");
       EXPECT_GT(lit, 0);
@@ -99,5 +103,5 @@ TEST(CoincidentSheets, OpaqueOnesStopLight) {
   }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall

@@ -5,11 +5,12 @@
 
 #include "compile/compiled_scene.h"
 #include "render/render.h"
+#include "support/filled.h"
 #include "support/measure.h"
 #include "support/scene_text.h"
 
 namespace tyndall::render {
-namespace {
+namespace UNNAMED {
 
 using support::expect_same;
 using support::measure;
@@ -39,20 +40,25 @@ void expect_equal(const std::string& a, const std::string& b) {
     }
 }
 
-std::string tetrahedron(const std::string& more_triangles) {
-  return "mesh { points: [(-1, -1, -1), (1, -1, -1), (0, -1, 1), (0, 1, 0)]  "
-         "triangles: [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)" +
-         more_triangles + "] ";
-}
-
 // A point, a line, and three points on a line.
 TEST(Degenerate, TrianglesWithoutAreaAreNotThere) {
-  const std::string flaws = ", (0, 0, 0), (1, 2, 1), (0, 0, 3)";
-  expect_equal(tetrahedron(flaws) + "}", tetrahedron("") + "}");
-  const auto fog = [](const std::string& mesh) {
-    return "volume { in: " + mesh + "}  medium: { density = 2  albedo = 0.9 } }";
-  };
-  expect_equal(fog(tetrahedron(flaws)), fog(tetrahedron("")));
+  const std::string sound = R"(
+let faces = [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)]
+)",
+                    flawed = R"(
+let faces = [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0), (0, 0, 0), (1, 2, 1), (0, 0, 3)]
+)",
+                    solid = R"(
+mesh { points: [(-1, -1, -1), (1, -1, -1), (0, -1, 1), (0, 1, 0)]  triangles: faces }
+)",
+                    fog = R"(
+volume {
+  in: mesh { points: [(-1, -1, -1), (1, -1, -1), (0, -1, 1), (0, 1, 0)]  triangles: faces }
+  medium: { density = 2  albedo = 0.9 }
+}
+)";
+  expect_equal(flawed + solid, sound + solid);
+  expect_equal(flawed + fog, sound + fog);
 }
 
 // Of two surfaces in one place the earlier is seen, and no light leaks in between.
@@ -65,8 +71,9 @@ TEST(Coincident, SurfacesAreOne) {
 }
 
 std::string fog_in(const std::string& lowest, const std::string& highest) {
-  return "volume { in: box { min: " + lowest + "  max: " + highest +
-         " }  medium: { density = 0.7  albedo = 0.9 } }\n";
+  return support::filled(
+      "volume { in: box { min: $MIN  max: $MAX }  medium: { density = 0.7  albedo = 0.9 } }\n",
+      {{"MIN", lowest}, {"MAX", highest}});
 }
 
 // Volumes side by side are one: nothing is lost or counted twice at the face between them.
@@ -91,5 +98,5 @@ TEST(Coincident, BoundariesOnSurfacesLeakNothing) {
   expect_same(touching, within, 0, 0.01, "fog up to the walls against fog that reaches into them");
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::render

@@ -6,14 +6,15 @@
 
 #include "base/sampler.h"
 #include "compile/compiled_scene.h"
-#include "render/march.h"
-#include "render/worker.h"
+#include "render/distance/density_sampling.h"
+#include "render/march/ray_march.h"
 #include "support/scene_builder.h"
 
 namespace tyndall::render {
-namespace {
+namespace UNNAMED {
 
-// Two overlapping volumes of different colours, one of them uneven, and a gap between them and a third.
+// Two overlapping volumes of different colours, one of them heterogeneous, and a gap between them and a
+// third.
 compile::CompiledScene world() {
   support::SceneBuilder b;
   b.step(0.3).orthographic({0, 0, 0}, {0, 0, -1}, 1);
@@ -31,9 +32,10 @@ compile::CompiledScene world() {
 TEST(DensityDistribution, SamplesFollowTheDensity) {
   const compile::CompiledScene w = world();
   for (const Rgb throughput : {Rgb(1, 1, 1), Rgb(1, 0, 0), Rgb(0.01f, 0.2f, 5)}) {
-    Worker worker;
+    ThreadContext thread;
+    RayMarcher marcher;
     March m;
-    march(w, {{0, 0, 0}, {0, 0, -1}, 100}, compile::RayKind::camera, 77, worker, m);
+    marcher.march(w, {{{0, 0, 0}, {0, 0, -1}, 100}, compile::RayKind::camera, 77, &m}, thread);
     const DensityDistribution density(m, throughput);
     ASSERT_TRUE(density.available());
     constexpr int cells = 60, draws = 200000, fine = 2000;
@@ -51,7 +53,7 @@ TEST(DensityDistribution, SamplesFollowTheDensity) {
     EXPECT_NEAR(total, 1, 1e-4);
     for (std::uint32_t s = 0; s < draws; ++s) {
       const Sampler sampler(4, 0, 1, 2, s);
-      const double t = density.sample(sampler.independent(1, 0), sampler.independent(2, 0)).t;
+      const double t = density.sample(sampler.independent(1, 0)).t;
       ++found[static_cast<std::size_t>(std::min((t - lo) / width, cells - 1.0))];
     }
     double chi_squared = 0;
@@ -65,5 +67,5 @@ TEST(DensityDistribution, SamplesFollowTheDensity) {
   }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::render

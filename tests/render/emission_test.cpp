@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "base/sampler.h"
-#include "render/emission_field.h"
+#include "render/lights/emission_grid.h"
 #include "support/measure.h"
 #include "support/scene_builder.h"
 #include "support/ways.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 
@@ -28,11 +28,11 @@ SceneBuilder fire_in_a_room() {
   return b;
 }
 
-TEST(EmissionField, DensityIsThatOfItsDirections) {
+TEST(EmissionGrids, DensityIsThatOfItsDirections) {
   SceneBuilder b = fire_in_a_room();
   b.volume(scene::Sphere{{-1, 1, 0.5}, 0.2}, b.constant({Rgb(1), Rgb(0), Rgb(20)}));  // a second one
   const compile::CompiledScene world = compile::compile(b.scene);
-  const auto field = render::EmissionField::of(world);
+  const auto field = render::EmissionGrids::of(world);
   ASSERT_TRUE(field);
   const Sampler random(1, 0, 0, 0, 0);
   for (const Vec3d& in_world : {Vec3d{3, 1, 2}, Vec3d{0.3, 0.2, 0}, Vec3d{0, -0.8, 0.1}}) {
@@ -60,19 +60,19 @@ TEST(EmissionField, DensityIsThatOfItsDirections) {
   }
 }
 
-TEST(EmissionField, IsNoneWithoutLight) {
+TEST(EmissionGrids, IsNoneWithoutLight) {
   SceneBuilder b;
   b.volume(scene::Sphere{{}, 1}, b.constant({Rgb(1), Rgb(0.5f)})).environment(1);
-  EXPECT_FALSE(render::EmissionField::of(compile::compile(b.scene)));
+  EXPECT_FALSE(render::EmissionGrids::of(compile::compile(b.scene)));
 }
 
 // A small fire in a huge box of dark medium is found.
-TEST(EmissionField, FindsASmallFire) {
+TEST(EmissionGrids, FindsASmallFire) {
   SceneBuilder b;
   const Density spark = [](const Point& p) { return max(1.f - length(p), 0); };
   b.volume(scene::Box{{-20, -20, -20}, {20, 20, 20}}, b.shader({Rgb(1), Rgb(0), Rgb(20)}, spark));
   const compile::CompiledScene world = compile::compile(b.scene);
-  const auto field = render::EmissionField::of(world);
+  const auto field = render::EmissionGrids::of(world);
   ASSERT_TRUE(field);
   const Vec3d x = Vec3d{10, 0, 0} - world.origin;
   EXPECT_GT(field->pdf(x, {-1, 0, 0}), 10);  // the ball's solid angle is 0.03

@@ -1,5 +1,5 @@
 // Equi-angular sampling: published values, and its laws from D = 0 to D = 1e6.
-#include "render/equiangular.h"
+#include "render/distance/equiangular.h"
 
 #include <gtest/gtest.h>
 
@@ -9,16 +9,16 @@
 #include "base/numerics.h"
 
 namespace tyndall::render {
-namespace {
+namespace UNNAMED {
 
 // A ray along z; the pivot at distance D from it, nearest at z = 0.
-Equiangular about(double distance, const std::vector<Intervald>& stretches) {
-  return {{0, 0, 0}, {0, 0, 1}, {distance, 0, 0}, stretches};
+Equiangular about(double distance, const std::vector<Intervald>& marched) {
+  return {{0, 0, 0}, {0, 0, 1}, {distance, 0, 0}, marched};
 }
 
 TEST(Equiangular, PublishedValues) {
-  const std::vector<Intervald> stretches{{-5, 5}};
-  const Equiangular e = about(1, stretches);
+  const std::vector<Intervald> marched{{-5, 5}};
+  const Equiangular e = about(1, marched);
   EXPECT_NEAR(e.pdf(0), 0.36405979, 5e-9);
   EXPECT_NEAR(e.pdf(5), 0.01400230, 5e-9);
   EXPECT_NEAR(e.sample(0.75), 0.81980390, 5e-9);
@@ -26,7 +26,7 @@ TEST(Equiangular, PublishedValues) {
 
 struct Case {
   double distance;
-  std::vector<Intervald> stretches;
+  std::vector<Intervald> marched;
 };
 std::vector<Case> cases() {
   std::vector<Case> all;
@@ -40,16 +40,16 @@ std::vector<Case> cases() {
 }
 
 // P(t <= sample(u)) = u, with the probability from the angle in long double: samples follow the density.
-// u = k/1000; the error allowed is the rounding of t in its stretch.
+// u = k/1000; the error allowed is the rounding of t in its interval.
 TEST(Equiangular, SampleInvertsTheDistribution) {
   for (const Case& c : cases()) {
-    const Equiangular e = about(c.distance, c.stretches);
+    const Equiangular e = about(c.distance, c.marched);
     ASSERT_TRUE(e.available()) << c.distance;
     // Mass up to t, unnormalised: the angle over D (its limit for D = 0).
     const auto mass = [&](double t) {
       long double sum = 0;
       const long double d = c.distance;
-      for (const Intervald& s : c.stretches) {
+      for (const Intervald& s : c.marched) {
         const Intervald part = s.clipped_to({-infinity, t});
         if (part.empty()) continue;
         const long double a = part.lo, b = part.hi;
@@ -57,11 +57,11 @@ TEST(Equiangular, SampleInvertsTheDistribution) {
       }
       return sum;
     };
-    const long double total = mass(c.stretches.back().hi);
+    const long double total = mass(c.marched.back().hi);
     for (int k = 1; k < 1000; ++k) {
       const double u = k / 1000.0, t = e.sample(u);
       bool inside = false;
-      for (const Intervald& s : c.stretches) inside |= s.lo <= t && t <= s.hi;
+      for (const Intervald& s : c.marched) inside |= s.lo <= t && t <= s.hi;
       ASSERT_TRUE(inside) << "D " << c.distance << " u " << u << " t " << t;
       const double slack = 1e-9 + 4e-16 * std::abs(t) * e.pdf(t);
       ASSERT_NEAR(static_cast<double>(mass(t) / total), u, slack)
@@ -73,13 +73,13 @@ TEST(Equiangular, SampleInvertsTheDistribution) {
 // The density is the derivative of the distribution: between neighbouring samples it averages to du/dt.
 TEST(Equiangular, DensityMatchesTheSamples) {
   for (const Case& c : cases()) {
-    const Equiangular e = about(c.distance, c.stretches);
+    const Equiangular e = about(c.distance, c.marched);
     for (int k = 50; k < 950; k += 9) {
       const double t0 = e.sample((k - 0.01) / 1000), t1 = e.sample((k + 0.01) / 1000),
                    t = e.sample(k / 1000.0);
-      const bool one_stretch = std::any_of(c.stretches.begin(), c.stretches.end(),
-                                           [&](const Intervald& s) { return s.lo <= t0 && t1 <= s.hi; });
-      if (!one_stretch || t1 - t0 < 1e-9 * std::abs(t)) continue;  // a jump, or too narrow to divide by
+      const bool one_interval = std::any_of(c.marched.begin(), c.marched.end(),
+                                            [&](const Intervald& s) { return s.lo <= t0 && t1 <= s.hi; });
+      if (!one_interval || t1 - t0 < 1e-9 * std::abs(t)) continue;  // a jump, or too narrow to divide by
       EXPECT_NEAR(e.pdf(t) * (t1 - t0) / 2e-5, 1, 2e-3) << "D " << c.distance << " t " << t;
     }
   }

@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "compile/compiled_scene.h"
-#include "render/march.h"
+#include "render/march/ray_march.h"
 #include "render/render.h"
-#include "render/worker.h"
 #include "support/scene_builder.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using support::SceneBuilder;
 
@@ -57,8 +56,8 @@ TEST(Extremes, TinyAndHuge) {
   EXPECT_LT(difference(placed({}, 1), placed({}, 1e6)), 1e-4);
 }
 
-// 1e5 m of uneven haze at a step of 1 mm: the march is widened, told in the statistics, and still right for a
-// medium that is in truth constant, though its bounds do not show it.
+// 1e5 m of heterogeneous haze at a step of 1 mm: the march is widened, told in the statistics, and still
+// right for a medium that is in truth constant, though its bounds do not show it.
 TEST(Extremes, LongIntervalsWithSmallStepsAreWidenedAndTold) {
   SceneBuilder b;
   b.image(1, 1, 4).step(1e-3).orthographic({0, 0, 0}, {0, 0, 1}, 1);
@@ -86,9 +85,10 @@ TEST(Extremes, OpticalDepthsOverSixtyDecades) {
              b.constant({.sigma_t = Rgb(static_cast<float>(tau)), .albedo = Rgb(0.5f)}));
     b.quad_light({0, 0, -5}, {10, 0, 0}, {0, 10, 0}, Rgb(1));
     const compile::CompiledScene world = compile::compile(b.scene);
-    render::Worker worker;
+    render::ThreadContext thread;
+    render::RayMarcher marcher;
     render::March march;
-    render::march(world, {{0, 0, 0}, {0, 0, -1}, 1e9}, compile::RayKind::camera, 1, worker, march);
+    marcher.march(world, {{{0, 0, 0}, {0, 0, -1}, 1e9}, compile::RayKind::camera, 1, &march}, thread);
     ASSERT_EQ(march.count, 1u);
     EXPECT_NEAR(march.transmittance[0][1], std::exp(-static_cast<double>(static_cast<float>(tau))), 1e-7)
         << tau;
@@ -138,5 +138,5 @@ INSTANTIATE_TEST_SUITE_P(Extremes, BadShader,
                                          Misbehaviour{"Negative", -2, render::BadValue::Kind::below}),
                          [](const auto& named) { return named.param.name; });
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall

@@ -1,5 +1,5 @@
 // The film's sums: exact, so that no order of additions can change a bit.
-#include "render/film.h"
+#include "render/film/film.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace tyndall::render {
-namespace {
+namespace UNNAMED {
 
 TEST(FixedSum, DoesNotDependOnOrder) {
   std::mt19937 random(5);
@@ -58,7 +58,7 @@ TEST(Film, IsAWindowOfThePicture) {
   Film film(16384, 16384, 1, aovs, PixelWindow{16380, 8000, 16384, 8003});
   film.add(16383, 8001, {1, 2, 3});
   AovSample sample;
-  sample.met_surface = true;
+  sample.hit_surface = true;
   sample.depth = 5;
   film.add(16383, 8001, sample);
   EXPECT_EQ(film.mean(16383, 8001), Rgb(1, 2, 3));
@@ -74,5 +74,48 @@ TEST(Film, IsAWindowOfThePicture) {
   EXPECT_EQ(image.place.whole_width, 16384);
 }
 
-}  // namespace
+// Halves are of samples 0, 1, 4, 5, … and 2, 3, 6, 7, …; the second is twice the mean without the first.
+TEST(Film, TellsHalvesApart) {
+  AovSet aovs;
+  aovs.add(Aov::depth);
+  aovs.add(Aov::albedo);
+  aovs.add(Aov::halves);
+  Film film(1, 1, error_groups, aovs);
+  for (int group = 0; group < error_groups; ++group) {
+    const float value = static_cast<float>(1 << group);
+    film.add(0, 0, {value, 0, 0}, group);
+    AovSample sample;
+    sample.hit_surface = group != 1;
+    sample.depth = group != 1 ? double(value) : 0;
+    sample.albedo = {0, value, 0};
+    film.add(0, 0, sample, group);
+  }
+  const image::Image image = film.image();
+  const auto value = [&](std::string_view name) {
+    const auto found = std::find(image.channels.begin(), image.channels.end(), name);
+    return image.pixels.at(static_cast<std::size_t>(found - image.channels.begin()));
+  };
+  EXPECT_EQ(value("R"), (1 + 2 + 4 + 8) / 4.0f);
+  EXPECT_EQ(value("half.R"), (1 + 2) / 2.0f);
+  EXPECT_EQ(value("albedo.G"), (1 + 2 + 4 + 8) / 4.0f);
+  EXPECT_EQ(value("half.albedo.G"), (1 + 2) / 2.0f);
+  EXPECT_EQ(value("depth"), (1 + 4 + 8) / 3.0f);
+  EXPECT_EQ(value("half.depth"), 1.0f);
+  EXPECT_EQ(image.channels.size(), 3u + 1 + 3 + 3 + 1 + 3);
+}
+
+// With a half that has no samples both are the other one: they tell no noise.
+TEST(Film, AHalfWithoutSamplesIsTheOther) {
+  AovSet aovs;
+  aovs.add(Aov::albedo);
+  aovs.add(Aov::halves);
+  Film film(1, 1, error_groups, aovs);
+  film.add(0, 0, {0, 0, 3}, 2);
+  AovSample sample;
+  sample.albedo = {1, 1, 1};
+  film.add(0, 0, sample, 2);
+  EXPECT_EQ(film.image().pixels, (std::vector<float>{0, 0, 3, 1, 1, 1, 0, 0, 3, 1, 1, 1}));
+}
+
+}  // namespace UNNAMED
 }  // namespace tyndall::render

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "render/light_sum.h"
+#include "render/lights/light_sum.h"
 #include "render/render.h"
 #include "support/scene_text.h"
 
 namespace tyndall::render {
-namespace {
+namespace UNNAMED {
 
 // A million equal parts of 1: floats alone would end at 0.25 or at 1.01.
 TEST(LightSum, GrowsToTheLast) {
@@ -30,16 +30,17 @@ TEST(LightSum, GrowsToTheLast) {
 // A lamp beside a ray through fog, single scattering: 1.13752231e-02 by quadrature.
 TEST(LightSamples, AreRightUpToTheLimit) {
   const scene::Scene scene = support::scene_of(
-      "render { resolution: (1, 1)  samples: 1  step: 0.1  bounces: 0  light_samples: 65536 }\n"
-      "camera perspective { from: (0, 0, 0)  to: (0, 0, 1)  fov: 0.00001deg }\n"
-      "volume { in: box { min: (-20, -20, -20)  max: (20, 20, 20) }  medium: { density = 0.1  albedo = 1 } "
-      "}\n"
-      "light point { position: (1, 0, 5)  intensity: 1 }\n"
-      "quad { center: (0, 0, 10)  u: (30, 0, 0)  v: (0, 30, 0)  material: { base_color = 0 } }\n");
+      R"(
+render { resolution: (1, 1)  samples: 1  step: 0.1  bounces: 0  light_samples: 65536 }
+camera perspective { from: (0, 0, 0)  to: (0, 0, 1)  fov: 0.00001deg }
+volume { in: box { min: (-20, -20, -20)  max: (20, 20, 20) }  medium: { density = 0.1  albedo = 1 } }
+light point { position: (1, 0, 5)  intensity: 1 }
+quad { center: (0, 0, 10)  u: (30, 0, 0)  v: (0, 30, 0)  material: { base_color = 0 } }
+)");
   const RenderResult result = render(compile::compile(scene), {});
   EXPECT_NEAR(result.film.mean(0, 0).x, 1.13752231e-2f, 2e-6f);
   EXPECT_EQ(result.statistics.shadow_rays, 65536u);
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::render

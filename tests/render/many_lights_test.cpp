@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "base/numerics.h"
-#include "compile/light_tree.h"
+#include "compile/lights/light_tree.h"
 #include "support/measure.h"
 #include "support/scene_builder.h"
+#include "support/ways.h"
 
 namespace tyndall::render {
-namespace {
+namespace UNNAMED {
 
 using support::SceneBuilder;
 
@@ -30,11 +31,11 @@ Vec3d place(int i) {
 }
 
 // Lights that cast no shadow on each other.
-optics::Light small_light(int i) {
+scene::Light small_light(int i) {
   const Rgb power(static_cast<float>(1 + i % 4));
-  if (i % 3 == 0) return optics::PointLight{place(i), power, {}};
-  if (i % 3 == 1) return optics::SpotLight{place(i), {0, 0, 0}, {0.4}, 0.3, power, {}};
-  return optics::DistantLight{{0.1 * i, -1, 0}, Rgb(0.05f), {}};
+  if (i % 3 == 0) return scene::PointLight{place(i), power, {}};
+  if (i % 3 == 1) return scene::SpotLight{place(i), {0, 0, 0}, {0.4}, 0.3, power, {}};
+  return scene::DistantLight{{0.1 * i, -1, 0}, Rgb(0.05f), {}};
 }
 
 TEST(ManyLights, AreTheSumOfFew) {
@@ -62,26 +63,26 @@ TEST(ManyLights, AreTheSumOfFew) {
   support::expect_same(support::measure(all.scene, tracking).whole(), wanted, 0, 0.06, "tracking");
 }
 
-// Lights that rays meet: whether drawn or met, each counts once.
+// Lights that rays hit: whether sampled or hit, each counts once.
 TEST(ManyLights, AreTheSameByEveryDistance) {
   SceneBuilder all = mist();
   for (int i = 0; i < 20; ++i) {
     const Rgb power(static_cast<float>(1 + i % 4));
     if (i % 2 == 0)
-      all.light(optics::SphereLight{place(i), 0.1, power, {}, true});
+      all.light(scene::AreaLight{scene::Sphere{place(i), 0.1}, power, {}});
     else
-      all.light(optics::QuadLight{place(i), {0.2, 0, 0}, {0, 0, 0.2}, power, {}, true});
+      all.light(scene::AreaLight{scene::Quad{place(i), {0.2, 0, 0}, {0, 0, 0.2}}, power, {}});
   }
   RenderOptions density;
   density.distance = Distance::density;
   const support::Estimate wanted = support::measure(all.scene, density).whole();
-  for (const Distance distance : {Distance::mis, Distance::equiangular, Distance::product}) {
+  for (const auto& [name, distance] : support::all_distances()) {
+    if (distance == density.distance) continue;
     RenderOptions options;
     options.distance = distance;
-    support::expect_same(support::measure(all.scene, options).whole(), wanted, 0, 0.05,
-                         "distance " + std::to_string(static_cast<int>(distance)));
+    support::expect_same(support::measure(all.scene, options).whole(), wanted, 0, 0.05, name);
   }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::render

@@ -3,9 +3,10 @@
 
 #include "support/measure.h"
 #include "support/scene_builder.h"
+#include "support/ways.h"
 
 namespace tyndall::render {
-namespace {
+namespace UNNAMED {
 
 using support::SceneBuilder;
 
@@ -37,32 +38,33 @@ TEST(MeshLights, ShineAsTheQuadThatTheyAre) {
   mesh.points = {{-0.2, 1.5, -0.6}, {0.8, 1.5, -0.4}, {0.8, 1.5, 0.6}, {-0.2, 1.5, 0.4}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   b.scene.meshes.push_back(mesh);
-  optics::MeshLight light;
-  light.power = Rgb(20);
-  b.scene.lights.push_back({light, {}, scene::Mesh{scene::MeshId(0)}});
+  b.light(scene::AreaLight{scene::Mesh{scene::MeshId(0)}, Rgb(20), {}});
   support::expect_same(support::measure(a.scene).whole(), support::measure(b.scene).whole(), 0, 0.03,
                        "quad and mesh");
 }
 
 TEST(GlowingShapes, AreTheSameWhicheverWayTheyAreFound) {
-  const std::vector<scene::Shape> shapes = {
-      scene::Sphere{{0.2, 1.2, 0}, 0.5}, scene::Box{{-0.4, 0.8, -0.4}, {0.6, 1.5, 0.5}},
-      scene::Cylinder{{-0.5, 1, 0}, {0.5, 1.3, 0.2}, 0.3}, scene::Mesh{}};
+  const std::vector<scene::Shape> shapes = {scene::Sphere{{0.2, 1.2, 0}, 0.5},
+                                            scene::Box{{-0.4, 0.8, -0.4}, {0.6, 1.5, 0.5}},
+                                            scene::Cylinder{{-0.5, 1, 0}, {0.5, 1.3, 0.2}, 0.3},
+                                            scene::Cone{{-0.5, 1, 0}, {0.5, 1.3, 0.2}, 0.4, 0.1},
+                                            scene::Torus{{0.1, 1.2, 0}, {0.3, 1, 0.5}, 0.4, 0.2},
+                                            scene::Mesh{}};
   for (const bool stretched : {false, true})
     for (scene::Shape shape : shapes) {
-      SceneBuilder sampled = fog_and_floor(), met = fog_and_floor();
+      SceneBuilder sampled = fog_and_floor(), hit = fog_and_floor();
       if (std::holds_alternative<scene::Mesh>(shape)) {
         shape = add_roof(sampled.scene);
-        add_roof(met.scene);
+        add_roof(hit.scene);
       }
       sampled.surface(shape, Rgb(0.2f), Rgb(5, 3, 1));
-      met.surface(shape, Rgb(0.2f), Rgb(5, 3, 1));
+      hit.surface(shape, Rgb(0.2f), Rgb(5, 3, 1));
       if (stretched)
-        for (SceneBuilder* b : {&sampled, &met})
+        for (SceneBuilder* b : {&sampled, &hit})
           b->scene.shapes.back().world_from_object =
               Transform{{1.2, 0.1, 0}, {0, 0.7, 0.2}, {0, 0, 1}, {0, 0.2, 0}};
       // The same emission as a value of the point, which is not known to be the same everywhere.
-      scene::Material& material = met.scene.materials.back();
+      scene::Material& material = hit.scene.materials.back();
       vm::Builder builder(false);
       const vm::NodeId zero =
           builder.emit(vm::Op::mul, {builder.input(vm::Input::p_x), builder.constant(0)}, {});
@@ -73,10 +75,10 @@ TEST(GlowingShapes, AreTheSameWhicheverWayTheyAreFound) {
       material.base_color = {0, 0, 0};
       material.emission = scene::RgbOutputs{1, 2, 3};
       material.given.resize(4);
-      const compile::CompiledScene a = compile::compile(sampled.scene), b = compile::compile(met.scene);
+      const compile::CompiledScene a = compile::compile(sampled.scene), b = compile::compile(hit.scene);
       EXPECT_EQ(a.lights.size(), 1u);
       EXPECT_EQ(b.lights.size(), 0u);
-      support::expect_same(support::measure(sampled.scene).whole(), support::measure(met.scene).whole(), 0,
+      support::expect_same(support::measure(sampled.scene).whole(), support::measure(hit.scene).whole(), 0,
                            0.05, "shape " + std::to_string(shape.index()));
     }
 }
@@ -86,25 +88,23 @@ TEST(MeshLights, AreTheSameByEveryMethod) {
   SceneBuilder builder = fog_and_floor();
   builder.scene.settings.samples = 128;
   const scene::Mesh roof = add_roof(builder.scene);
-  optics::MeshLight light;
-  light.radiance = Rgb(4, 3, 2);
-  builder.scene.lights.push_back({light, {}, roof});
+  builder.light(scene::AreaLight{roof, {}, Rgb(4, 3, 2)});
   RenderOptions density;
   density.distance = Distance::density;
   const support::Estimate wanted = support::measure(builder.scene, density).whole();
-  for (const Distance distance : {Distance::mis, Distance::equiangular, Distance::product}) {
+  for (const auto& [name, distance] : support::all_distances()) {
+    if (distance == density.distance) continue;
     RenderOptions options;
     options.distance = distance;
-    support::expect_same(support::measure(builder.scene, options).whole(), wanted, 0, 0.05,
-                         "distance " + std::to_string(static_cast<int>(distance)));
+    support::expect_same(support::measure(builder.scene, options).whole(), wanted, 0, 0.05, name);
   }
-  for (const Method method : {Method::brute_force, Method::stochastic, Method::tracking}) {
+  for (const auto& [name, method] : support::all_methods()) {
+    if (method == density.method) continue;
     RenderOptions options;
     options.method = method;
-    support::expect_same(support::measure(builder.scene, options).whole(), wanted, 0, 0.05,
-                         "method " + std::to_string(static_cast<int>(method)));
+    support::expect_same(support::measure(builder.scene, options).whole(), wanted, 0, 0.05, name);
   }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::render

@@ -7,7 +7,7 @@
 #include "support/ways.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 
@@ -74,8 +74,8 @@ TEST(ApproximateScattering, LeavesWhatDoesNotScatter) {
     EXPECT_EQ(approximate.films[i].image().pixels, full.films[i].image().pixels);
 }
 
-// Even fog about a point light, scattered once: order k is the integral of sigma_s T(t) (b albedo)^k p_k
-// T(r)^(a^k) / r² over the ray, here by the midpoint rule.
+// Homogeneous fog about a point light, scattered once: order k is the integral of sigma_s T(t) (b albedo)^k
+// p_k T(r)^(a^k) / r² over the ray, here by the midpoint rule.
 TEST(ApproximateScattering, OrdersAreSingleScatteringInThinnerFog) {
   const Airlight row{0.8, 1, 2, 4, {}};
   constexpr double g = 0.6, albedo = 0.7;
@@ -117,5 +117,5 @@ TEST(ApproximateScattering, IsOnePictureByEveryMethod) {
                 0.04, way.name);
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall

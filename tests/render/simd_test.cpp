@@ -10,7 +10,7 @@
 #include "support/simd_classes.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 

@@ -8,7 +8,7 @@
 #include "support/scene_builder.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 using namespace support;
 

@@ -7,7 +7,7 @@
 #include "support/scene_text.h"
 
 namespace tyndall::render {
-namespace {
+namespace UNNAMED {
 
 constexpr int size = 256;
 

@@ -10,7 +10,7 @@
 #include "syntax/format.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 

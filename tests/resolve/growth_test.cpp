@@ -1,23 +1,18 @@
 // Reading a scene takes time in proportion to its text, whatever there is much of. Judged by how the time of
 // the processor grows from a text to one of sixteen times as much: 16-fold when it is linear, 256-fold when
 // it is quadratic; what is above the middle of the two, on the scale of factors, fails.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <ctime>
 #include <functional>
 
 #include "resolved.h"
+#include "support/filled.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
-// `n` times a text; `{0}` in it is the number, `{1}` the one before.
-std::string times(int n, std::string_view form) {
-  std::string text;
-  for (int i = 1; i <= n; ++i) fmt::format_to(std::back_inserter(text), fmt::runtime(form), i, i - 1);
-  return text;
-}
+using support::filled;
+using support::numbered;
 
 struct Kind {
   std::string_view name;
@@ -25,67 +20,75 @@ struct Kind {
   std::function<std::string(int)> text;
 };
 
+// A text of which there is nothing but many, each with its number.
+std::function<std::string(int)> many(std::string_view form) {
+  return [form](int n) { return numbered(form, n); };
+}
+
+// A text within which something is there many times: `each`, in place of `$ALL`.
+std::function<std::string(int)> with_many(std::string_view each, std::string_view form) {
+  return [each, form](int n) { return filled(form, {{"ALL", numbered(each, n)}}); };
+}
+
+// The same of two things.
+std::function<std::string(int)> with_many(std::string_view each, std::string_view other,
+                                          std::string_view form) {
+  return [each, other, form](int n) {
+    return filled(form, {{"ALL", numbered(each, n)}, {"OTHERS", numbered(other, n)}});
+  };
+}
+
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> table{
-      {"names", 2000, [](int n) { return times(n, "let a{0} = 1 sphere {{ radius: a{0} }}\n"); }},
-      {"unused_names", 4000, [](int n) { return times(n, "let a{0} = 1\n"); }},
-      {"names_of_names", 4000, [](int n) { return "let a0 = 1\n" + times(n, "let a{0} = a{1} + a0\n"); }},
-      {"variables", 4000, [](int n) { return times(n, "var a{0} = 1 a{0} = a{0} + 1\n"); }},
-      {"functions", 2000, [](int n) { return times(n, "def f{0}(x) = x let _a{0} = f{0}(1)\n"); }},
-      {"templates", 2000,
-       [](int n) { return times(n, "def t{0}(r) {{ sphere {{ radius: r }} }} t{0}(1)\n"); }},
-      {"objects", 2000, [](int n) { return times(n, "object o{0} {{ sphere {{ }} }} place o{0} {{ }}\n"); }},
+      {"names", 2000, many("let a$I = 1 sphere { radius: a$I }\n")},
+      {"unused_names", 4000, many("let a$I = 1\n")},
+      {"names_of_names", 4000, with_many("let a$I = a$BEFORE + a0\n", "let a0 = 1\n$ALL")},
+      {"variables", 4000, many("var a$I = 1 a$I = a$I + 1\n")},
+      {"functions", 2000, many("def f$I(x) = x let _a$I = f$I(1)\n")},
+      {"templates", 2000, many("def t$I(r) { sphere { radius: r } } t$I(1)\n")},
+      {"objects", 2000, many("object o$I { sphere { } } place o$I { }\n")},
       {"objects_that_see_variables", 1000,
-       [](int n) {
-         return times(n, "var a{0} = 1\n") +
-                times(n, "object o{0} {{ sphere {{ radius: a{0} }} }} place o{0} {{ }}\n");
-       }},
+       with_many("var a$I = 1\n", "object o$I { sphere { radius: a$I } } place o$I { }\n", "$ALL$OTHERS")},
       {"media", 500,
-       [](int n) {
-         return times(
-             n,
-             "medium m{0}() {{ density = {0} albedo = 1 }} volume {{ in: sphere {{ }} medium: m{0}() }}\n");
-       }},
-      {"materials", 500,
-       [](int n) {
-         return times(n, "material m{0}() {{ base_color = 0.5 }} sphere {{ material: m{0}() }}\n");
-       }},
+       many("medium m$I() { density = $I albedo = 1 } volume { in: sphere { } medium: m$I() }\n")},
+      {"materials", 500, many("material m$I() { base_color = 0.5 } sphere { material: m$I() }\n")},
       {"bodies_that_see_a_long_list", 500,
-       [](int n) {
-         return "let l = [" + times(n, "{0}, ") + "]\n" +
-                times(n, "material m{0}() {{ base_color = 0 * l[0] }} sphere {{ material: m{0}() }}\n");
-       }},
-      {"a_body_that_sees_many_names", 1000,
-       [](int n) {
-         return times(n, "let a{0} = 1\n") + "material m() { var s = 0\n" + times(n, "s = s + a{0}\n") +
-                "base_color = 0 * s }\nsphere { material: m() }\n";
-       }},
-      {"names_in_an_object", 4000,
-       [](int n) { return "object _o { " + times(n, "let a{0} = 1 sphere {{ radius: a{0} }}\n") + "}\n"; }},
-      {"names_in_a_function", 4000,
-       [](int n) {
-         return "def f() = { " + times(n, "let a{0} = 1 let _b{0} = a{0}\n") + "return 1 }\nlet _f = f()\n";
-       }},
-      {"parameters", 2000,
-       [](int n) {
-         return "def f(" + times(n, "p{0},") + ") = 1\nlet _a = f(" + times(n, "p{0}: 1,") + ")\n";
-       }},
-      {"long_lists", 8000, [](int n) { return "let _l = [" + times(n, "[{0}, 0], ") + "]\n"; }},
-      {"long_sums", 8000, [](int n) { return "let _s = [" + times(n, "{0} + {0} * 2, ") + "]\n"; }},
-      {"blocks_passed_over", 1000,
-       [](int n) { return times(n, "group {{ let a = 1 if false {{ sphere {{ radius: a }} }} }}\n"); }},
+       with_many("$I, ", "material m$I() { base_color = 0 * l[0] } sphere { material: m$I() }\n",
+                 "let l = [$ALL]\n$OTHERS")},
+      {"a_body_that_sees_many_names", 1000, with_many("let a$I = 1\n", "s = s + a$I\n", R"(
+$ALL
+material m() {
+  var s = 0
+  $OTHERS
+  base_color = 0 * s
+}
+sphere { material: m() }
+)")},
+      {"names_in_an_object", 4000, with_many("let a$I = 1 sphere { radius: a$I }\n", "object _o { $ALL }\n")},
+      {"names_in_a_function", 4000, with_many("let a$I = 1 let _b$I = a$I\n", R"(
+def f() = {
+  $ALL
+  return 1
+}
+let _f = f()
+)")},
+      {"parameters", 2000, with_many("p$I,", "p$I: 1,", R"(
+def f($ALL) = 1
+let _a = f($OTHERS)
+)")},
+      {"long_lists", 8000, with_many("[$I, 0], ", "let _l = [$ALL]\n")},
+      {"long_sums", 8000, with_many("$I + $I * 2, ", "let _s = [$ALL]\n")},
+      {"blocks_passed_over", 1000, many("group { let a = 1 if false { sphere { radius: a } } }\n")},
       {"names_within_groups", 1000,
-       [](int n) {
-         return times(n, "let a{0} = 1\n") + "group { group { group {\n" +
-                times(n, "group {{ let b = a{0} sphere {{ radius: b }} }}\n") + "} } }\n";
-       }},
-      {"uses_of_an_unknown_name", 2000,
-       [](int n) { return times(n, "if true {{ sphere {{ radius: nothing }} }}\n"); }},
-      {"unknown_names", 2000,
-       [](int n) { return "def f() = { " + times(n, "let _b{0} = a{0}\n") + "return 1 }\n"; }},
-      {"wrong_statements", 2000, [](int n) { return times(n, "sphere {{ raduis: 1 }}\n"); }},
-      {"doubled_names", 2000, [](int n) { return times(n, "let a = 1\n"); }},
-      {"parameters_that_are_none", 2000, [](int n) { return "sphere { " + times(n, "x{0}: 1\n") + "}\n"; }},
+       with_many("let a$I = 1\n", "group { let b = a$I sphere { radius: b } }\n", R"(
+$ALL
+group { group { group { $OTHERS } } }
+)")},
+      {"uses_of_an_unknown_name", 2000, many("if true { sphere { radius: nothing } }\n")},
+      {"unknown_names", 2000, with_many("let _b$I = a$I\n", "def f() = { $ALL return 1 }\n")},
+      {"wrong_statements", 2000, many("sphere { raduis: 1 }\n")},
+      {"doubled_names", 2000, many("let a = 1\n")},
+      {"parameters_that_are_none", 2000, with_many("x$I: 1\n", "sphere { $ALL }\n")},
   };
   return table;
 }
@@ -118,5 +121,5 @@ TEST_P(Growth, IsThatOfTheText) {
 INSTANTIATE_TEST_SUITE_P(Language, Growth, testing::ValuesIn(kinds()),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall

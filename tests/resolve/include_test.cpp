@@ -3,17 +3,17 @@
 #include <fstream>
 
 #include "resolved.h"
+#include "support/test_folder.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 
 // A folder of files that is gone at the end of the test.
 class Folder {
  public:
-  explicit Folder(const std::string& name)
-      : path_(fs::path(testing::TempDir()) / ("tyndall_include_" + name)) {
+  explicit Folder(const std::string& name) : path_(test_folder() / name) {
     fs::remove_all(path_);
     fs::create_directories(path_);
   }
@@ -60,14 +60,14 @@ TEST(Include, ComesOnceInAScopeHoweverItIsSpelt) {
 
 TEST(Include, StandsWhereItIsWritten) {
   const Folder folder("place");
-  folder.write("a7.tyn", "sphere { radius: size }  def ball() { sphere { radius: 5 * size } }");
+  folder.write("a7.tyn", "sphere { radius: size }  def ball() { sphere { radius: size / 2 } }");
   const Resolved r = resolve_text(
       camera_and_light +
           "let size = 3  group { transform: translate((1, 0, 0))  include \"a{4 + size}.tyn\"  ball() }",
       {}, folder.path("main.tyn"));
   ASSERT_TRUE(r.diagnostics.all().empty()) << r.messages();
   EXPECT_EQ(r.scene.shapes.at(0).world_from_object, Transform::translate({1, 0, 0}));
-  EXPECT_EQ(std::get<scene::Sphere>(r.scene.shapes.at(1).shape).radius, 15);
+  EXPECT_EQ(std::get<scene::Sphere>(r.scene.shapes.at(1).shape).radius, 1.5);
 }
 
 TEST(Include, OfTheMainFileIsACircle) {
@@ -156,5 +156,5 @@ TEST(Include, OfWhatIsNoSceneShowsNothingOfIt) {
             "");
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall

@@ -11,7 +11,7 @@
 #include "resolved.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 using syntax::TokenKind;

@@ -6,7 +6,7 @@
 #include "resolved.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 // The words of a scene that uses everything, comments left out.
 std::vector<std::string> words_of_a_scene() {

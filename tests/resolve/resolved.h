@@ -34,10 +34,12 @@ inline Resolved resolve_text(const std::string& text, const resolve::Options& op
 inline const std::string camera_and_light =
     "camera perspective { from: (0, 0, 5) to: (0, 0, 0) } light environment { radiance: 1 }\n";
 
-// Resolves a text after camera_and_light; any message is a failure.
+// Resolves a text after camera_and_light; any message is a failure, but that the camera is inside of a thing:
+// what is made here is not looked at.
 inline Resolved resolve_clean(const std::string& text, const resolve::Options& options = {}) {
   Resolved r = resolve_text(camera_and_light + text, options);
-  EXPECT_TRUE(r.diagnostics.all().empty()) << r.messages();
+  for (const Diagnostic& d : r.diagnostics.all())
+    EXPECT_TRUE(d.message.starts_with("the camera is inside an opaque shape")) << r.messages();
   return r;
 }
 

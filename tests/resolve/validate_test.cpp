@@ -4,7 +4,7 @@
 #include "scene/validate.h"
 
 namespace tyndall::scene {
-namespace {
+namespace UNNAMED {
 
 TEST(Validate, DefaultsAreSound) {
   EXPECT_TRUE(validate(RenderSettings{}).empty());
@@ -19,7 +19,7 @@ TEST(Validate, RefusesNotANumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(validate(Sphere{{}, nan}).empty());
   EXPECT_FALSE(validate(Box{{0, 0, 0}, {1, nan, 1}}).empty());
-  EXPECT_FALSE(validate(Plane{{}, {nan, 0, 0}}).empty());
+  EXPECT_FALSE(validate(shapes::Plane{{}, {nan, 0, 0}}).empty());
   EXPECT_FALSE(validate(Quad{{}, {1, 0, 0}, {0, nan, 0}}).empty());
   RenderSettings settings;
   settings.step = nan;
@@ -27,15 +27,15 @@ TEST(Validate, RefusesNotANumber) {
   PerspectiveCamera camera;
   camera.fov.radians = nan;
   EXPECT_FALSE(validate(camera).empty());
-  EXPECT_FALSE(validate(optics::PointLight{{}, Rgb(static_cast<float>(nan)), {}}).empty());
+  EXPECT_FALSE(validate(scene::PointLight{{}, Rgb(static_cast<float>(nan)), {}}).empty());
 }
 
 // The extremes of the pictures' sides are allowed, one more is not.
 TEST(Validate, ResolutionIsBounded) {
   const auto problems = [](int width, int height) {
     RenderSettings settings;
-    settings.width = width;
-    settings.height = height;
+    settings.resolution.width = width;
+    settings.resolution.height = height;
     return validate(settings).size();
   };
   EXPECT_EQ(problems(1, 16384), 0u);
@@ -45,7 +45,7 @@ TEST(Validate, ResolutionIsBounded) {
 
 // Names in problems are those of the fields: resolve finds the parameter's place by them.
 TEST(Validate, NamesTheField) {
-  const Problems problems = validate(optics::SphereLight{{}, -1, Rgb(-1, 0, 0), {}, true});
+  const Problems problems = validate(scene::AreaLight{scene::Sphere{{}, -1}, Rgb(-1, 0, 0), {}});
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_EQ(problems[0].field, "radius");
   EXPECT_EQ(problems[1].field, "power");

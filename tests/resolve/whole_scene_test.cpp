@@ -4,7 +4,7 @@
 #include "resolved.h"
 
 namespace tyndall {
-namespace {
+namespace UNNAMED {
 
 constexpr const char* whole_scene = R"(
 // Light through a drifting cloud.
@@ -28,8 +28,8 @@ TEST(WholeScene, HasTheNumbersOfItsText) {
   const Resolved r = resolve_text(whole_scene);
   ASSERT_TRUE(r.diagnostics.all().empty()) << r.messages();
   const scene::Scene& s = r.scene;
-  EXPECT_EQ(s.settings.width, 640);
-  EXPECT_EQ(s.settings.height, 360);
+  EXPECT_EQ(s.settings.resolution.width, 640);
+  EXPECT_EQ(s.settings.resolution.height, 360);
   EXPECT_EQ(s.settings.samples, 64);
   EXPECT_EQ(s.settings.step, 0.05);
   EXPECT_EQ(s.settings.light_samples, 2);
@@ -37,7 +37,7 @@ TEST(WholeScene, HasTheNumbersOfItsText) {
   EXPECT_EQ(s.animation.fps, 24);
   EXPECT_EQ(s.animation.first_frame, 1);
   EXPECT_EQ(s.animation.last_frame, 48);
-  EXPECT_NEAR(s.animation.shutter.radians, std::numbers::pi, 1e-15);
+  EXPECT_NEAR(s.animation.shutter.closes.radians, std::numbers::pi, 1e-15);
   EXPECT_EQ(s.frame, 1);
   EXPECT_EQ(s.time, 1 / 24.0);
 
@@ -54,15 +54,16 @@ TEST(WholeScene, HasTheNumbersOfItsText) {
   EXPECT_EQ(s.media[0].name, "cloud");
   EXPECT_FALSE(s.media[0].homogeneous());
   ASSERT_EQ(s.media[0].phase.size(), 1u);
-  EXPECT_EQ(s.media[0].phase[0].kind, optics::PhaseKind::hg);
+  EXPECT_EQ(s.media[0].phase[0].kind, optics::phase_kind<optics::HenyeyGreenstein>);
   EXPECT_EQ(s.media[0].phase[0].parameters[0].value, 0.6f);
 
   ASSERT_EQ(s.lights.size(), 2u);
-  const auto& sphere = std::get<optics::SphereLight>(s.lights[0].light);
+  const auto& lamp = std::get<scene::AreaLight>(s.lights[0].light);
+  const auto& sphere = std::get<scene::Sphere>(lamp.shape);
   EXPECT_EQ(sphere.center, Vec3d(2, 3, 1));
   EXPECT_EQ(sphere.radius, 0.2);
-  EXPECT_EQ(sphere.power, Rgb(100, 100, 100));
-  EXPECT_EQ(std::get<optics::EnvironmentLight>(s.lights[1].light).radiance.color, Rgb(0.05f, 0.08f, 0.12f));
+  EXPECT_EQ(lamp.power, Rgb(100, 100, 100));
+  EXPECT_EQ(std::get<scene::EnvironmentLight>(s.lights[1].light).radiance.color, Rgb(0.05f, 0.08f, 0.12f));
 }
 
 TEST(WholeScene, FollowsTheFrame) {
@@ -77,8 +78,12 @@ TEST(WholeScene, FollowsTheFrame) {
 
 TEST(Animation, DecidesTheTimeOfWhatStandsAboveIt) {
   const Resolved r = resolve_clean(
-      "let rate = 10  sphere { radius: 1 + time }  animation { fps: rate * 2 frames: 30..40 }  sphere { "
-      "radius: frame }");
+      R"(
+let rate = 10
+sphere { radius: 1 + time }
+animation { fps: rate * 2  frames: 30..40 }
+sphere { radius: frame }
+)");
   EXPECT_EQ(std::get<scene::Sphere>(r.scene.shapes.at(0).shape).radius, 2.5);
   EXPECT_EQ(std::get<scene::Sphere>(r.scene.shapes.at(1).shape).radius, 30);
 }
@@ -99,9 +104,14 @@ TEST(Animation, WithoutItTimeIsZero) {
 
 TEST(Units, AreMetresAndRadians) {
   const Resolved r = resolve_clean(
-      "sphere { radius: 3mm } sphere { radius: 2cm } sphere { radius: 1.5km } sphere { center: (1cm, 2m, 3) }"
-      "render { step: 25mm samples: 2 }"
-      "light distant { direction: (0, -1, 0) irradiance: 50% angle: 90deg }");
+      R"(
+sphere { radius: 3mm }
+sphere { radius: 2cm }
+sphere { radius: 1.5km }
+sphere { center: (1cm, 2m, 3) }
+render { step: 25mm  samples: 2 }
+light distant { direction: (0, -1, 0)  irradiance: 50%  angle: 90deg }
+)");
   const auto radius = [&](std::size_t i) {
     return std::get<scene::Sphere>(r.scene.shapes.at(i).shape).radius;
   };
@@ -110,7 +120,7 @@ TEST(Units, AreMetresAndRadians) {
   EXPECT_DOUBLE_EQ(radius(2), 1500);
   expect_near(std::get<scene::Sphere>(r.scene.shapes.at(3).shape).center, {0.01, 2, 3});
   EXPECT_DOUBLE_EQ(r.scene.settings.step.metres, 0.025);
-  const auto& light = std::get<optics::DistantLight>(r.scene.lights.at(1).light);
+  const auto& light = std::get<scene::DistantLight>(r.scene.lights.at(1).light);
   EXPECT_EQ(light.irradiance, Rgb(0.5f, 0.5f, 0.5f));
   EXPECT_NEAR(light.angle.radians, 90 * degree, 1e-15);
 }
@@ -157,5 +167,5 @@ TEST(Print, ShowsEveryNumber) {
   }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall

@@ -10,7 +10,7 @@
 #include "compiled.h"
 
 namespace tyndall::shader {
-namespace {
+namespace UNNAMED {
 
 struct Branch {
   const char* text;  // sets `density`, a function of x = p.x
@@ -38,18 +38,27 @@ INSTANTIATE_TEST_SUITE_P(
                [](float x) { return x > 0 ? x : 1; }},
         Branch{"medium m() { if p.x > 0 { density = p.x } else { density = 1 } albedo = 1 }",
                [](float x) { return x > 0 ? x : 1; }},
-        Branch{"medium m() { if p.x > 2 { density = 3 } else if p.x > 0 { density = 2 } else { density = 1 } "
-               "albedo = 1 }",
+        Branch{R"(
+medium m() { if p.x > 2 { density = 3 } else if p.x > 0 { density = 2 } else { density = 1 }  albedo = 1 }
+)",
                [](float x) { return x > 2   ? 3.0f
                                     : x > 0 ? 2.0f
                                             : 1.0f; }},
-        Branch{"medium m() { var d = 1 if p.x > 0 { d = d + p.x if p.x > 1 { d = d * 2 } } density = d "
-               "albedo = 1 }",
+        Branch{R"(
+medium m() { var d = 1  if p.x > 0 { d = d + p.x  if p.x > 1 { d = d * 2 } }  density = d  albedo = 1 }
+)",
                [](float x) { return x > 1   ? (1 + x) * 2
                                     : x > 0 ? 1 + x
                                             : 1; }},
-        Branch{"medium m() { var d = 1 if p.x > 0 { d = 2 } else { d = 3 } if p.x > 1 { d = d + 5 } density "
-               "= d albedo = 1 }",
+        Branch{R"(
+medium m() {
+  var d = 1
+  if p.x > 0 { d = 2 } else { d = 3 }
+  if p.x > 1 { d = d + 5 }
+  density = d
+  albedo = 1
+}
+)",
                [](float x) { return x > 1   ? 7.0f
                                     : x > 0 ? 2.0f
                                             : 3.0f; }},
@@ -57,19 +66,24 @@ INSTANTIATE_TEST_SUITE_P(
                [](float x) { return static_cast<float>((x > 0) + (x > 1) + (x > 2) + (x > 3)); }},
         Branch{"def f(x) = { if x > 0 { return x } return 1 } medium m() { density = f(p.x) albedo = 1 }",
                [](float x) { return x > 0 ? x : 1; }},
-        Branch{"def f(x) = { var a = 1 if x > 0 { a = 2 if x > 1 { return 10 } a = a + 1 } else { a = 4 } "
-               "return a } "
-               "medium m() { density = f(p.x) albedo = 1 }",
+        Branch{R"(
+def f(x) = { var a = 1  if x > 0 { a = 2  if x > 1 { return 10 }  a = a + 1 } else { a = 4 }  return a }
+medium m() { density = f(p.x)  albedo = 1 }
+)",
                [](float x) { return x > 1   ? 10.0f
                                     : x > 0 ? 3.0f
                                             : 4.0f; }},
-        Branch{"def f(x) = { for i in 0..3 { if x < i { return i } } return 9 } medium m() { density = "
-               "f(p.x) albedo = 1 }",
+        Branch{R"(
+def f(x) = { for i in 0..3 { if x < i { return i } }  return 9 }
+medium m() { density = f(p.x)  albedo = 1 }
+)",
                [](float x) {
                  return x < 0 ? 0.0f : x < 1 ? 1.0f : x < 2 ? 2.0f : x < 3 ? 3.0f : 9.0f;
                }},
-        Branch{"def f(x) = { if x > 0 { if x > 1 { return 5 } else { return 6 } } else { return 7 } } "
-               "medium m() { density = f(p.x) albedo = 1 }",
+        Branch{R"(
+def f(x) = { if x > 0 { if x > 1 { return 5 } else { return 6 } } else { return 7 } }
+medium m() { density = f(p.x)  albedo = 1 }
+)",
                [](float x) { return x > 1   ? 5.0f
                                     : x > 0 ? 6.0f
                                             : 7.0f; }},
@@ -89,15 +103,19 @@ INSTANTIATE_TEST_SUITE_P(
                                           : 6.0f; }},
         Branch{"medium m() { var d = 1 for i in 1..min(p.x, 4) { d = d * 2 } density = d albedo = 1 }",
                [](float x) { return std::exp2(std::max(0.0f, std::min(4.0f, std::floor(x)))); }},
-        Branch{"def f(x) = { for i in 0..<min(x, 3) { if x < i + 1.5 { return 10 + i } } return 5 } "
-               "medium m() { density = f(p.x) albedo = 1 }",
+        Branch{R"(
+def f(x) = { for i in 0..<min(x, 3) { if x < i + 1.5 { return 10 + i } }  return 5 }
+medium m() { density = f(p.x)  albedo = 1 }
+)",
                [](float x) {
                  for (int i = 0; static_cast<float>(i) < std::min(x, 3.0f); ++i)
                    if (x < static_cast<float>(i) + 1.5f) return 10.0f + static_cast<float>(i);
                  return 5.0f;
                }},
-        Branch{"def f(x) = { for i in 0..<min(x, 3) { return 7 } return 5 } medium m() { density = f(p.x) "
-               "albedo = 1 }",
+        Branch{R"(
+def f(x) = { for i in 0..<min(x, 3) { return 7 }  return 5 }
+medium m() { density = f(p.x)  albedo = 1 }
+)",
                [](float x) { return x > 0 ? 7.0f : 5.0f; }},
         Branch{"medium m() { let l = [3, 5, 9] density = l[p.x] albedo = 1 }",
                [](float x) { return x < 1   ? 3.0f
@@ -161,10 +179,18 @@ TEST(Phase, NumbersMayDependOnThePlace) {
 // What surrounds a body's definition and its arguments decide its key, and nothing else does.
 TEST(Key, IsEqualForEqualBodies) {
   BodyText text(
-      "let k = 2 medium c(a = 1, b = 2) { density = a * b * k albedo = 1 } "
-      "let one = c(3) let two = c(a: 3, b: 2) let three = c(4) "
-      "def make(d) = { medium inner() { density = d albedo = 1 } return inner() } "
-      "let four = make(1) let five = make(1) let six = make(2) let seven = c()");
+      R"(
+let k = 2
+medium c(a = 1, b = 2) { density = a * b * k  albedo = 1 }
+let one = c(3)
+let two = c(a: 3, b: 2)
+let three = c(4)
+def make(d) = { medium inner() { density = d  albedo = 1 }  return inner() }
+let four = make(1)
+let five = make(1)
+let six = make(2)
+let seven = c()
+)");
   EXPECT_EQ(text.messages(), "");
   EXPECT_EQ(text.body("one")->key, text.body("two")->key);
   EXPECT_NE(text.body("one")->key, text.body("three")->key);
@@ -193,12 +219,26 @@ TEST(Functions, DoNotSeeTheBodysInputs) {
 TEST(Guards, StandAroundTheNoiseOfABranch) {
   const std::string bodies[] = {
       "medium m() { density = if p.y > 0 then fbm(p) + 1 else 0 albedo = 1 }",
-      "medium m() { var d = 1 if p.x > 0 { d = d + noise(p) } else { d = turbulence(p) + 2 } density = d "
-      "albedo = 1 }",
-      "def f(p) = { if p.x > 1 { return 1 } if p.y > 1 { return 2 + fbm(p) } return 3 + cells(p) } "
-      "medium m() { density = f(p) albedo = (noise(p), 0.5, 1) }",
-      "medium m() { var d = 2 for i in 0..<clamp(4 * p.x, 0, 6) { d = d + fbm(p * 2^i, octaves: 2) / 2^i } "
-      "density = d albedo = 1 }",
+      R"(
+medium m() {
+  var d = 1
+  if p.x > 0 { d = d + noise(p) } else { d = turbulence(p) + 2 }
+  density = d
+  albedo = 1
+}
+)",
+      R"(
+def f(p) = { if p.x > 1 { return 1 }  if p.y > 1 { return 2 + fbm(p) }  return 3 + cells(p) }
+medium m() { density = f(p)  albedo = (noise(p), 0.5, 1) }
+)",
+      R"(
+medium m() {
+  var d = 2
+  for i in 0..<clamp(4 * p.x, 0, 6) { d = d + fbm(p * 2^i, octaves: 2) / 2^i }
+  density = d
+  albedo = 1
+}
+)",
       "medium m() { density = 3 + [noise(p), fbm(p), cells(p)][2 * p.x] albedo = 1 }",
   };
   for (const std::string& body : bodies) {
@@ -252,5 +292,5 @@ TEST(Loops, WhoseEndDiffersNeedALimit) {
   }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::shader

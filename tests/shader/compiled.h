@@ -1,13 +1,14 @@
 // Compiles bodies from text and runs them at points, for the tests of this folder.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 
 #include "eval/evaluator.h"
 #include "shader/compile_body.h"
 #include "syntax/parser.h"
-#include "vm/machine.h"
+#include "vm/run/machine.h"
 
 namespace tyndall::shader {
 
@@ -57,9 +58,11 @@ inline std::vector<float> run(const vm::Program& program, const Point& at) {
   std::vector<float*> rows;
   for (float& value : values) rows.push_back(&value);
   vm::BatchInputs inputs;
-  const float all[] = {at.p.x, at.p.y, at.p.z, at.P.x, at.P.y, at.P.z, at.n.x, at.n.y,
-                       at.n.z, at.N.x, at.N.y, at.N.z, at.u,   at.v,   at.time};
-  for (std::size_t i = 0; i < vm::input_count; ++i) inputs.lanes[i] = &all[i];
+  // In the order of vm::Input; a body has no tangents, vertex colours or second coordinates here.
+  const std::array<float, vm::input_count> all = {at.p.x, at.p.y, at.p.z, at.P.x, at.P.y,
+                                                  at.P.z, at.n.x, at.n.y, at.n.z, at.N.x,
+                                                  at.N.y, at.N.z, at.u,   at.v,   at.time};
+  for (std::size_t i = 0; i < all.size(); ++i) inputs.lanes[i] = &all[i];
   vm::Machine().run(program, inputs, 1, rows);
   return values;
 }

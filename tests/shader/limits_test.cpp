@@ -1,5 +1,6 @@
 // Numbers out of range, over the tables of outputs and of phase functions' parameters: constants are refused,
 // what varies is limited where it is used and shown as it was given.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,16 +11,18 @@
 #include "compiled.h"
 #include "optics/phase.h"
 #include "shader/outputs.h"
+#include "support/filled.h"
 
 namespace tyndall::shader {
-namespace {
+namespace UNNAMED {
+
+using support::filled;
 
 constexpr double largest = scene::largest_coefficient;
 
 // What goes with an output so that the body is a medium.
 std::string beside(std::string_view output) {
-  if (output == "density" || output == "extinction") return " albedo = 0.5";
-  return output == "albedo" || output == "scattering" || output == "absorption" ? "" : " albedo = 0.5";
+  return output == "albedo" || output == "scattering" || output == "absorption" ? "" : "albedo = 0.5";
 }
 
 TEST(OutputRanges, ConstantsOutOfThemAreRefused) {
@@ -30,8 +33,9 @@ TEST(OutputRanges, ConstantsOutOfThemAreRefused) {
       const std::string highest = std::isinf(rule.highest) ? "1e31" : std::to_string(rule.highest * 1.01);
       for (const std::string& value : {std::to_string(rule.lowest - 0.01), highest, std::string("1 / 0")}) {
         const std::string name(rule.name);
-        BodyText text((medium ? "medium m() { " : "material m() { ") + name + " = " + value +
-                      (medium ? beside(rule.name) : "") + " }");
+        BodyText text(filled(
+            medium ? "medium m() { $OUTPUT = $VALUE $BESIDE }" : "material m() { $OUTPUT = $VALUE $BESIDE }",
+            {{"OUTPUT", name}, {"VALUE", value}, {"BESIDE", medium ? beside(rule.name) : ""}}));
         EXPECT_FALSE(medium ? text.medium().has_value() : text.material().has_value()) << name << value;
         EXPECT_EQ(text.diagnostics.error_count(), 1) << text.messages();
         EXPECT_NE(text.messages().find("'" + name + "'"), std::string::npos) << text.messages();
@@ -46,10 +50,16 @@ const scene::GivenNumber* given_as(const scene::Medium& medium, const std::strin
   return nullptr;
 }
 
-// The outputs at p.x are those of a body in which the number is within its range in the first place.
-void expect_limited(const std::string& body, const std::string& limited_body, const std::string& name,
-                    float x) {
-  BodyText text("medium m() { " + body + " }"), limited("medium m() { " + limited_body + " }");
+// The outputs at p.x = 1, with a value for `name`, are those of a body in which the number is within its
+// range in the first place.
+void expect_limited(const std::string& name, const std::string& value, const std::string& limited_value) {
+  constexpr float x = 1;
+  const auto body_with = [&](const std::string& v) {
+    return filled("medium m() { $OUTPUT = $VALUE $BESIDE }",
+                  {{"OUTPUT", name}, {"VALUE", v}, {"BESIDE", beside(name)}});
+  };
+  const std::string body = body_with(value);
+  BodyText text(body), limited(body_with(limited_value));
   const auto a = text.medium(), b = limited.medium();
   ASSERT_TRUE(a && b) << text.messages() << limited.messages();
   const auto values = run(a->full, {{x, 0, 0}}), wanted = run(b->full, {{x, 0, 0}});
@@ -66,58 +76,53 @@ void expect_limited(const std::string& body, const std::string& limited_body, co
       << body;
 }
 
+// The number as a scene gives it, and as what might vary.
+std::string digits_of(double v) { return fmt::format("{:.9g}", v); }
+std::string varying(double v) { return digits_of(v) + " + 0 * p.x"; }
+
 TEST(OutputRanges, WhatVariesIsLimitedAndShown) {
   for (const OutputRule& rule : medium_outputs()) {
     if (rule.type == eval::Type::phase) continue;
-    const std::string name(rule.name), rest = beside(rule.name);
+    const std::string name(rule.name);
     const double high = std::min(rule.highest, largest);
-    const auto constant = [](double v) {
-      char digits[64];
-      std::snprintf(digits, sizeof digits, "%.9g", v);
-      return std::string(digits) + " + 0 * p.x";
-    };
-    expect_limited(name + " = p.x - 3" + rest, name + " = " + constant(rule.lowest) + rest, name, 1);
-    expect_limited(name + " = 1e38 * p.x" + rest, name + " = " + constant(high) + rest, name, 1);
-    expect_limited(name + " = p.x / (p.x - p.x)" + rest, name + " = " + constant(high) + rest, name, 1);
-    expect_limited(name + " = sqrt(-p.x)" + rest, name + " = " + constant(rule.lowest) + rest, name, 1);
+    const std::string lowest = varying(rule.lowest), highest = varying(high);
+    expect_limited(name, "p.x - 3", lowest);
+    expect_limited(name, "1e38 * p.x", highest);
+    expect_limited(name, "p.x / (p.x - p.x)", highest);
+    expect_limited(name, "sqrt(-p.x)", lowest);
   }
 }
 
-std::string call(optics::PhaseKind kind, std::size_t parameter, const std::string& value) {
-  std::string text = std::string(optics::keyword(kind)) + "(";
-  const auto all = optics::parameters(kind);
-  for (std::size_t k = 0; k < all.size(); ++k)
-    text +=
-        (k > 0 ? ", " : "") + (k == parameter ? value : std::to_string((all[k].lowest + all[k].highest) / 2));
-  return text + ")";
+// A medium with this phase function, whose other parameters are in the middle of their ranges.
+std::string medium_with(const optics::PhaseInfo& function, std::size_t parameter, const std::string& value) {
+  std::vector<std::string> values;
+  for (const optics::PhaseParameter& p : function.parameters)
+    values.push_back(std::to_string((p.lowest + p.highest) / 2));
+  values.at(parameter) = value;
+  return filled(
+      "medium m() { albedo = 1 phase = $FUNCTION($VALUES) }",
+      {{"FUNCTION", std::string(function.keyword)}, {"VALUES", fmt::format("{}", fmt::join(values, ", "))}});
 }
 
 TEST(PhaseRanges, AreTheSameForConstantsAndForWhatVaries) {
-  using optics::PhaseKind;
-  for (const PhaseKind kind :
-       {PhaseKind::isotropic, PhaseKind::rayleigh, PhaseKind::hg, PhaseKind::draine, PhaseKind::droplets})
-    for (std::size_t k = 0; k < optics::parameters(kind).size(); ++k) {
-      const optics::PhaseParameter& p = optics::parameters(kind)[k];
-      const auto text_of = [](double v) {
-        char digits[64];
-        std::snprintf(digits, sizeof digits, "%.9g", v);
-        return std::string(digits);
-      };
+  for (const optics::PhaseInfo& function : optics::phase_functions())
+    for (std::size_t k = 0; k < function.parameters.size(); ++k) {
+      const optics::PhaseParameter& p = function.parameters[k];
       const double margin = 0.001 * (p.highest - p.lowest);
       for (const double inside : {p.lowest, p.highest}) {
-        BodyText text("medium m() { albedo = 1 phase = " + call(kind, k, text_of(inside)) + " }");
+        BodyText text(medium_with(function, k, digits_of(inside)));
         EXPECT_TRUE(text.medium()) << text.messages();
       }
       for (const double outside : {p.lowest - margin, p.highest + margin, infinity}) {
-        const std::string value = std::isinf(outside) ? "1 / 0" : text_of(outside);
-        BodyText text("medium m() { albedo = 1 phase = " + call(kind, k, value) + " }");
-        EXPECT_FALSE(text.medium()) << call(kind, k, value);
+        const std::string value = std::isinf(outside) ? "1 / 0" : digits_of(outside);
+        BodyText text(medium_with(function, k, value));
+        EXPECT_FALSE(text.medium()) << medium_with(function, k, value);
         EXPECT_NE(text.messages().find("must lie in ["), std::string::npos) << text.messages();
 
-        BodyText varying("medium m() { albedo = 1 phase = " + call(kind, k, value + " + 0 * p.x") + " }");
-        const auto medium = varying.medium();
-        ASSERT_TRUE(medium) << varying.messages();
-        const std::string name = std::string(p.name) + " of " + std::string(optics::keyword(kind));
+        BodyText varied(medium_with(function, k, value + " + 0 * p.x"));
+        const auto medium = varied.medium();
+        ASSERT_TRUE(medium) << varied.messages();
+        const std::string name = std::string(p.name) + " of " + std::string(function.keyword);
         const auto values = run(medium->full, {{1, 0, 0}});
         EXPECT_FLOAT_EQ(values[*medium->phase[0].parameters[k].output],
                         static_cast<float>(outside < p.lowest ? p.lowest : p.highest));
@@ -152,5 +157,5 @@ TEST(PhaseRanges, HoldInMixturesAndBranches) {
   EXPECT_GE(run(branched->full, {{-2, 0, 0}})[g->output], static_cast<float>(g->lowest));
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::shader

@@ -7,12 +7,14 @@
 #include "shader/material_outputs.h"
 
 namespace tyndall::shader {
-namespace {
+namespace UNNAMED {
 
 TEST(Material, TilesOfTheLanguagePage) {
   BodyText text(
-      "material tiles(size = 1) { base_color = if checker(p.xz / size) then 0.8 else 0.2 roughness = 0.4 } "
-      "let m = tiles(size: 0.5)");
+      R"(
+material tiles(size = 1) { base_color = if checker(p.xz / size) then 0.8 else 0.2  roughness = 0.4 }
+let m = tiles(size: 0.5)
+)");
   const auto material = text.material();
   ASSERT_TRUE(material) << text.messages();
   EXPECT_TRUE(text.diagnostics.all().empty()) << text.messages();
@@ -53,9 +55,20 @@ TEST(Material, DefaultsToGrey) {
 // A material costs what its body asks for: what is not set, or set to its default, is no output.
 TEST(Material, OutputsAtTheirDefaultsAreLeftOut) {
   BodyText text(
-      "material m() { base_color = 0.5 metallic = 0 roughness = 0 specular = 0 transmission = 0 ior = 1.5 "
-      "coat = "
-      "0 sheen = 0 emission = 0 opacity = 1 }");
+      R"(
+material m() {
+  base_color = 0.5
+  metallic = 0
+  roughness = 0
+  specular = 0
+  transmission = 0
+  ior = 1.5
+  coat = 0
+  sheen = 0
+  emission = 0
+  opacity = 1
+}
+)");
   const auto material = text.material();
   ASSERT_TRUE(material) << text.messages();
   EXPECT_TRUE(material->matte());
@@ -113,5 +126,5 @@ TEST(Material, MistakesAreErrors) {
   }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::shader

@@ -4,7 +4,7 @@
 #include "compiled.h"
 
 namespace tyndall::shader {
-namespace {
+namespace UNNAMED {
 
 void expect_rgb(const Rgb& found, const Rgb& expected) {
   for (std::size_t i = 0; i < 3; ++i)
@@ -138,8 +138,17 @@ TEST(Outputs, EqualOnesAreShared) {
 // The two programs agree on extinction, and folding changes nothing.
 TEST(Programs, AgreeWithEachOther) {
   BodyText text(
-      "medium m() { let q = rotate_y(p, 0.6rad * time) let d = fbm(q * 2, octaves: 3) + 2 "
-      "density = d extinction = (1, d, 2) albedo = clamp(p, 0, 1) emission = abs(p) phase = hg(0.5 * p.x) }");
+      R"(
+medium m() {
+  let q = rotate_y(p, 0.6rad * time)
+  let d = fbm(q * 2, octaves: 3) + 2
+  density = d
+  extinction = (1, d, 2)
+  albedo = clamp(p, 0, 1)
+  emission = abs(p)
+  phase = hg(0.5 * p.x)
+}
+)");
   const auto folded = text.medium("m", true), unfolded = text.medium("m", false);
   ASSERT_TRUE(folded && unfolded) << text.messages();
   for (const Point& at : {Point{{0.1f, 0.7f, -0.3f}}, Point{{-2, 3.5f, 1}, {}, {}, {}, 0, 0, 4}, Point{}}) {
@@ -163,7 +172,7 @@ TEST(Cloud, IsItsFormula) {
   ASSERT_TRUE(medium) << text.messages();
   EXPECT_EQ(text.messages(), "");
   ASSERT_EQ(medium->phase.size(), 1u);
-  EXPECT_EQ(medium->phase[0].kind, optics::PhaseKind::hg);
+  EXPECT_EQ(medium->phase[0].kind, optics::phase_kind<optics::HenyeyGreenstein>);
   EXPECT_FLOAT_EQ(medium->phase[0].parameters[0].value, 0.6f);
   int inside = 0;
   for (int i = 0; i < 200; ++i) {
@@ -187,5 +196,5 @@ TEST(Cloud, IsItsFormula) {
   EXPECT_GT(inside, 20);
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::shader

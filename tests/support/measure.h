@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "compile/compiled_scene.h"
-#include "render/reference.h"
+#include "reference/reference.h"
 #include "render/render.h"
 #include "support/region_estimate.h"
 
@@ -35,8 +35,8 @@ struct Measurement {
 // Renders the scene once a seed. No sample may be bad.
 inline Measurement measure(scene::Scene scene, const render::RenderOptions& options = {}) {
   Measurement measurement;
-  measurement.width = scene.settings.width;
-  measurement.height = scene.settings.height;
+  measurement.width = scene.settings.resolution.width;
+  measurement.height = scene.settings.resolution.height;
   for (int seed = 1; seed <= seed_count; ++seed) {
     scene.settings.seed = static_cast<std::uint64_t>(seed);
     const compile::CompiledScene world = compile::compile(scene);
@@ -50,12 +50,12 @@ inline Measurement measure(scene::Scene scene, const render::RenderOptions& opti
 // The reference's mean, with the error of its independent samples. Its majorant must hold.
 inline Estimate measure_reference(const scene::Scene& scene, double majorant, int samples,
                                   std::uint64_t seed = 1) {
-  render::ReferenceSettings settings;
+  reference::ReferenceSettings settings;
   settings.majorant = majorant;
   settings.samples = samples;
   settings.bounces = scene.settings.bounces;
   settings.seed = seed;
-  const render::ReferenceResult result = render::reference_render(scene, settings);
+  const reference::ReferenceResult result = reference::reference_render(scene, settings);
   EXPECT_EQ(result.majorant_violations, 0u);
   const auto whole = result.whole();
   return {whole.mean, whole.standard_error};

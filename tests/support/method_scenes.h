@@ -20,10 +20,7 @@ inline std::vector<MethodScene> method_scenes() {
   const auto begin = [](int bounces) {
     SceneBuilder b;
     b.image(12, 8, 32).step(0.1).bounces(bounces).perspective({0, 0.3, 5}, {0, 0, 0}, 40);
-    optics::SphereLight lamp;
-    lamp.center = {1.2, 1.3, 0.4};
-    lamp.radius = 0.25;
-    lamp.power = Rgb(60);
+    scene::AreaLight lamp{scene::Sphere{{1.2, 1.3, 0.4}, 0.25}, Rgb(60), {}};
     lamp.visible = false;  // to the camera: its own few pixels would drown what the fog does
     return b.light(lamp);
   };

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "render/film.h"
+#include "render/film/film.h"
 
 namespace tyndall::support {
 

@@ -13,7 +13,7 @@ namespace tyndall::support {
 
 inline scene::PhaseLobe hg(float g) {
   scene::PhaseLobe lobe;
-  lobe.kind = optics::PhaseKind::hg;
+  lobe.kind = optics::phase_kind<optics::HenyeyGreenstein>;
   lobe.parameters[0].value = g;
   return lobe;
 }
@@ -36,11 +36,12 @@ class SceneBuilder {
   SceneBuilder() {
     image(1, 1, 16);
     scene.settings.bounces = 1024;
+    scene.settings.step = 0.1;
   }
 
   SceneBuilder& image(int width, int height, int samples) {
-    scene.settings.width = width;
-    scene.settings.height = height;
+    scene.settings.resolution.width = width;
+    scene.settings.resolution.height = height;
     scene.settings.samples = samples;
     return *this;
   }
@@ -53,7 +54,7 @@ class SceneBuilder {
     return *this;
   }
   SceneBuilder& orthographic(const Vec3d& from, const Vec3d& to, double height, const Vec3d& up = {0, 1, 0}) {
-    scene.camera = scene::OrthographicCamera{from, to, up, height};
+    scene.camera = scene::OrthographicCamera{{}, from, to, up, height};
     return *this;
   }
   SceneBuilder& perspective(const Vec3d& from, const Vec3d& to, double fov_degrees,
@@ -137,40 +138,31 @@ class SceneBuilder {
     scene.shapes.back().world_from_object = volume.world_from_shape;
     return *this;
   }
-  SceneBuilder& light(const optics::Light& light) {
+  SceneBuilder& light(const scene::Light& light) {
     scene.lights.push_back({light, {}});
     return *this;
   }
   SceneBuilder& point_light(const Vec3d& position, const Rgb& intensity) {
-    optics::PointLight one;
+    scene::PointLight one;
     one.position = position;
     one.intensity = intensity;
     return light(one);
   }
   SceneBuilder& sphere_light(const Vec3d& center, double radius, const Rgb& power) {
-    optics::SphereLight one;
-    one.center = center;
-    one.radius = radius;
-    one.power = power;
-    return light(one);
+    return light(scene::AreaLight{scene::Sphere{center, radius}, power, {}});
   }
   SceneBuilder& quad_light(const Vec3d& center, const Vec3d& u, const Vec3d& v, const Rgb& power) {
-    optics::QuadLight one;
-    one.center = center;
-    one.u = u;
-    one.v = v;
-    one.power = power;
-    return light(one);
+    return light(scene::AreaLight{scene::Quad{center, u, v}, power, {}});
   }
   SceneBuilder& distant_light(const Vec3d& direction, const Rgb& irradiance, double angle_degrees = 0) {
-    optics::DistantLight one;
+    scene::DistantLight one;
     one.direction = direction;
     one.irradiance = irradiance;
     one.angle.radians = angle_degrees * pi / 180;
     return light(one);
   }
   SceneBuilder& environment(float radiance) {
-    optics::EnvironmentLight one;
+    scene::EnvironmentLight one;
     one.radiance.color = Rgb(radiance);
     return light(one);
   }

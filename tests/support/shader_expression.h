@@ -2,7 +2,7 @@
 // language.
 #pragma once
 
-#include "vm/builder.h"
+#include "vm/builder/builder.h"
 
 namespace tyndall::support {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hwy/targets.h"
-#include "vm/machine.h"
+#include "vm/run/machine.h"
 
 namespace tyndall::support {
 

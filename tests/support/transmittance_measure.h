@@ -4,7 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "render/worker.h"
+#include "base/sampler.h"
+#include "render/transmittance/shadow_rays.h"
 #include "support/law_scenes.h"
 
 namespace tyndall::support {
@@ -48,25 +49,27 @@ inline TransmittanceMeasure measure_transmittance(const KnownDensity& known, ren
   SceneBuilder builder = known_density(known);
   builder.step(step);
   const compile::CompiledScene world = compile::compile(builder.scene);
-  render::Worker worker;
+  render::ThreadContext thread;
+  render::ShadowBatch shadows;
   const compile::Ray ray{known.from - world.origin, normalize(known.to - known.from), 100};
   double sum = 0, squares = 0, errors = 0;
   constexpr int together = 64;
   for (int done = 0; done < count; done += together) {
     for (int k = 0; k < together; ++k)
-      worker.shadows.add({ray, compile::no_index, Rgb(1),
-                          static_cast<std::uint32_t>(hash_bits(seed, static_cast<std::uint64_t>(done + k)))});
-    for (const render::ShadowRay& r : worker.shadows.trace(world, method, {}, worker)) {
+      shadows.add({ray, compile::no_index, Rgb(1),
+                   static_cast<std::uint32_t>(hash_bits(seed, static_cast<std::uint64_t>(done + k)))},
+                  {});
+    for (const render::ShadowRay& r : shadows.trace(world, method, {}, thread)) {
       const double t = r.contribution.y;
       sum += t;
       squares += t * t;
       errors += sqr(t - std::exp(-known.tau));
     }
-    worker.shadows.clear();
+    shadows.clear();
   }
   const double n = count, mean = sum / n;
   return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1)), std::sqrt(errors / n),
-          static_cast<double>(worker.statistics.segments) / n};
+          static_cast<double>(thread.statistics.segments) / n};
 }
 
 }  // namespace tyndall::support

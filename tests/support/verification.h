@@ -52,7 +52,7 @@ inline Estimate estimate_scene(scene::Scene scene, const render::RenderOptions& 
     scene.settings.seed = static_cast<std::uint64_t>(seed);
     films.push_back(render::render(compile::compile(scene), options).film);
   }
-  return region_estimate(films, 0, 0, scene.settings.width, scene.settings.height);
+  return region_estimate(films, 0, 0, scene.settings.resolution.width, scene.settings.resolution.height);
 }
 
 // The ways of these names.
@@ -64,7 +64,7 @@ inline std::vector<Way> ways_of(std::initializer_list<const char*> names) {
   return some;
 }
 // One way of each kind, for long paths.
-inline std::vector<Way> flights() { return ways_of({"Product", "Stochastic", "Tracking"}); }
+inline std::vector<Way> free_path_methods() { return ways_of({"Product", "Stochastic", "Tracking"}); }
 
 // A row of a rendered scene's mean.
 inline VerificationRow scene_row(std::string table, std::string row, const Way& way, double truth,

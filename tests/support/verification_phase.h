@@ -26,7 +26,7 @@ Estimate drawn(const optics::Phase& phase, F&& f) {
 }
 
 inline void add_phase_rows(std::vector<VerificationRow>& rows) {
-  using optics::Phase, optics::PhaseKind;
+  using optics::Phase;
   const auto add = [&rows](std::string row, std::string way, double truth, double digits,
                            std::function<Estimate()> run) {
     rows.push_back({"Phase functions", std::move(row), std::move(way), truth, digits, std::move(run)});
@@ -36,26 +36,26 @@ inline void add_phase_rows(std::vector<VerificationRow>& rows) {
     std::array<double, 3> cdf;
   };
   for (const Hg& hg : {Hg{0.3f, {.286037, .539717, .878406}}, Hg{0.85f, {.036140, .086520, .283812}}}) {
-    const Phase phase{PhaseKind::hg, {hg.g, 0}};
+    const Phase phase = optics::HenyeyGreenstein{hg.g};
     const std::string name = "hg(" + short_number(hg.g) + ") ";
     const std::array<double, 3> cosines{0, 0.5, 0.9};
     for (std::size_t i = 0; i < 3; ++i)
-      add(name + "P(cos <= " + short_number(cosines[i]) + ")", "drawn", hg.cdf[i], 5e-7,
+      add(name + "P(cos <= " + short_number(cosines[i]) + ")", "sampled", hg.cdf[i], 5e-7,
           [=] { return drawn(phase, [&](double c) { return c <= cosines[i] ? 1.0 : 0.0; }); });
-    add(name + "mean cosine", "drawn", hg.g, 1e-7, [=] { return drawn(phase, [](double c) { return c; }); });
-    add(name + "second Legendre moment", "drawn", hg.g * hg.g, 1e-7,
+    add(name + "mean cosine", "sampled", hg.g, 1e-7,
+        [=] { return drawn(phase, [](double c) { return c; }); });
+    add(name + "second Legendre moment", "sampled", hg.g * hg.g, 1e-7,
         [=] { return drawn(phase, [](double c) { return 1.5 * c * c - 0.5; }); });
   }
-  add("Rayleigh mean squared cosine", "drawn", 0.4, 0, [] {
-    return drawn({PhaseKind::rayleigh, {}}, [](double c) { return c * c; });
-  });
-  const Phase droplets{PhaseKind::droplets, {10e-6f, 0}};
-  add("droplets of 10 µm, mean cosine", "drawn", .86416, 5e-6,
+  add("Rayleigh mean squared cosine", "sampled", 0.4, 0,
+      [] { return drawn(optics::Rayleigh{}, [](double c) { return c * c; }); });
+  const Phase droplets = optics::Droplets{10e-6f};
+  add("droplets of 10 µm, mean cosine", "sampled", .86416, 5e-6,
       [=] { return drawn(droplets, [](double c) { return c; }); });
-  add("droplets of 10 µm, p(90°)", "value", .001726, 5e-7, [=] {
+  add("droplets of 10 µm, p(90°)", "evaluated", .001726, 5e-7, [=] {
     return Estimate{Vec3d(droplets.eval(1)), {}};
   });
-  add("droplets of 10 µm, p(180°)", "value", .01271, 5e-6, [=] {
+  add("droplets of 10 µm, p(180°)", "evaluated", .01271, 5e-6, [=] {
     return Estimate{Vec3d(droplets.eval(2)), {}};
   });
 }

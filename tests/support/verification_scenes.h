@@ -9,7 +9,7 @@ namespace tyndall::support {
 
 inline void add_sphere_rows(std::vector<VerificationRow>& rows) {
   for (const WhiteSphere& row : white_sphere_rows)
-    for (const Way& way : flights()) {
+    for (const Way& way : free_path_methods()) {
       SceneBuilder builder = white_sphere(row);
       builder.image(16, 16, 64);
       rows.push_back(scene_row("Sphere in a white environment",
@@ -39,24 +39,15 @@ inline void add_airlight_rows(std::vector<VerificationRow>& rows) {
 
 // With the bias of a march by Hoeffding's bound.
 inline void add_transmittance_rows(std::vector<VerificationRow>& rows) {
-  struct Named {
-    const char* name;
-    render::Transmittance method;
-    bool unbiased;
-  };
-  using render::Transmittance;
   for (const KnownDensity& known : known_densities())
-    for (const Named& named : {Named{"march", Transmittance::march, false},
-                               {"jackknife", Transmittance::jackknife, false},
-                               {"ratio", Transmittance::ratio, true},
-                               {"residual-ratio", Transmittance::residual_ratio, true},
-                               {"series", Transmittance::series, true}}) {
+    for (const auto& [name, method] : all_transmittances()) {
       const double truth = std::exp(-known.tau), step = 0.1;
-      const double bias =
-          named.unbiased ? 0 : std::expm1(std::pow(step * known.total_variation, 2) / 8) * truth;
-      rows.push_back({"Transmittance of known densities, step 0.1", known.name, named.name, truth,
-                      bias + 1e-6 * truth, [known, named, step] {
-                        const auto m = measure_transmittance(known, named.method, step, 1 << 15);
+      const double bias = render::info(method).unbiased
+                              ? 0
+                              : std::expm1(std::pow(step * known.total_variation, 2) / 8) * truth;
+      rows.push_back({"Transmittance of known densities, step 0.1", known.name, name, truth,
+                      bias + 1e-6 * truth, [known, method = method, step] {
+                        const auto m = measure_transmittance(known, method, step, 1 << 15);
                         return Estimate{Vec3d(m.mean), Vec3d(m.standard_error)};
                       }});
     }
@@ -65,7 +56,7 @@ inline void add_transmittance_rows(std::vector<VerificationRow>& rows) {
 // In proportion to density: 1 - 1/e for any density of τ = 1. In proportion to the distance: 1 - 2/e.
 inline void add_emission_rows(std::vector<VerificationRow>& rows) {
   const auto add = [&rows](auto&&... arguments) { rows.push_back(scene_row(arguments...)); };
-  for (const Way& way : flights()) {
+  for (const Way& way : free_path_methods()) {
     MediumColors fire;
     fire.albedo = Rgb(0);
     fire.emission = Rgb(1);
@@ -80,7 +71,7 @@ inline void add_emission_rows(std::vector<VerificationRow>& rows) {
     add("Emission, 1 - 1/e", "3x²", way, truth, way.unbiased ? 1e-6 : 5e-5,
         seen([](const Point& p) { return p.x * p.x * 3.f; }));
   }
-  for (const Way& way : flights()) {
+  for (const Way& way : free_path_methods()) {
     MediumColors absorbing, glowing;
     absorbing.albedo = glowing.albedo = Rgb(0);
     glowing.sigma_t = Rgb(0);
@@ -103,16 +94,16 @@ inline void add_white_rows(std::vector<VerificationRow>& rows) {
   };
   for (const Way& way : ways_of({"Product", "Mis", "Density", "Equiangular", "BruteForce", "Stochastic",
                                  "Tracking", "TrackingDensity", "TrackingEquiangular"}))
-    for (const bool uneven : {false, true}) {
+    for (const bool heterogeneous : {false, true}) {
       SceneBuilder builder;
       builder.image(16, 16, 32).step(0.2).perspective({0, 0, 4}, {0, 0, 0}, 30).environment(1);
-      MediumColors white{Rgb(uneven ? 8.f : 3.f), Rgb(1), {}, hg(0.5f)};
+      MediumColors white{Rgb(heterogeneous ? 8.f : 3.f), Rgb(1), {}, hg(0.5f)};
       builder.volume(scene::Box{{-1, -1, -1}, {1, 1, 1}},
-                     uneven ? builder.shader(white, lumps) : builder.constant(white));
-      add("White furnace", uneven ? "lumps, step 0.2" : "constant", way, 1, 1e-6, builder);
+                     heterogeneous ? builder.shader(white, lumps) : builder.constant(white));
+      add("White furnace", heterogeneous ? "lumps, step 0.2" : "constant", way, 1, 1e-6, builder);
     }
   // A closed box whose walls reflect rho and emit 1 - rho.
-  for (const Way& way : flights())
+  for (const Way& way : free_path_methods())
     for (const float rho : {0.5f, 0.8f}) {
       SceneBuilder builder;
       builder.image(24, 24, 32).step(0.2).perspective({0.2, -0.3, 0.4}, {1, 0.5, -1}, 60);
@@ -133,7 +124,7 @@ inline void add_mean_path_rows(std::vector<VerificationRow>& rows) {
     return max(cos(p.x * 5.f) * cos(p.y * 4.f) * cos(p.z * 6.f) + 0.3f, 0);
   };
   for (const float g : {0.f, 0.6f})
-    for (const Way& way : flights())
+    for (const Way& way : free_path_methods())
       rows.push_back(
           {"Mean path 4V/S in a ball", "lumps, g " + short_number(g), way.name, 4.0 / 3, 0.005 * 4 / 3, [=] {
              std::vector<double> paths;

@@ -12,17 +12,17 @@ inline void add_slab_rows(std::vector<VerificationRow>& rows) {
   const Density squared = [](const Point& p) { return p.y * p.y * 3.f; };
   for (const Slab& slab_row : slab_rows)
     for (const SlabView view : {SlabView::reflection, SlabView::transmission})
-      for (const Way& way : flights()) {
+      for (const Way& way : free_path_methods()) {
         const double truth = view == SlabView::reflection ? slab_row.R : slab_row.T;
         SceneBuilder even = slab(slab_row, view);
         even.image(16, 16, 16);
         add("Slab, van de Hulst", describe(slab_row, view), way, truth, 5e-6, even);
         const bool tested = slab_row.tau <= 2 && slab_row.albedo < 1;
         if (!tested) continue;
-        SceneBuilder uneven = slab(slab_row, view, squared);
-        uneven.image(16, 16, 16).step(1.0 / 128);
+        SceneBuilder heterogeneous = slab(slab_row, view, squared);
+        heterogeneous.image(16, 16, 16).step(1.0 / 128);
         const double bias = way.unbiased ? 0 : 0.5 * std::pow(slab_row.tau * 3 / 128, 2) * truth;
-        add("Slab of 3x² in depth", describe(slab_row, view), way, truth, 5e-6 + bias, uneven);
+        add("Slab of 3x² in depth", describe(slab_row, view), way, truth, 5e-6 + bias, heterogeneous);
       }
 }
 
@@ -105,7 +105,7 @@ inline void add_half_space_rows(std::vector<VerificationRow>& rows) {
                              {0.9f, .5, .507939},
                              {0.99f, 1, .752721},
                              {0.99f, .5, .815140}})
-    for (const Way& way : flights()) {
+    for (const Way& way : free_path_methods()) {
       SceneBuilder builder = slab_at({0, h.albedo, 100, h.R, 0}, SlabView::reflection, h.mu);
       builder.image(16, 16, 16);
       rows.push_back(scene_row("Half space, Chandrasekhar",

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
 
 #include "reading.h"
+#include "support/filled.h"
 
 namespace tyndall::syntax {
 namespace {
@@ -49,6 +51,7 @@ std::vector<fs::path> scenes() {
   for (const char* folder : {"/scenes", "/tests/language", "/tests/fuzz/corpus/parse"})
     for (const auto& entry : fs::recursive_directory_iterator(TYNDALL_SOURCE_DIR + std::string(folder)))
       if (entry.path().extension() == ".tyn") paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
   return paths;
 }
 
@@ -87,8 +90,8 @@ TEST(Format, AnyBlanksAndComments) {
                                        "\t\r\n",
                                        "\n/* g\n  h\n*/ ",
                                        " // i\n\n// j\n"};
-  std::mt19937 random(3);
   for (const fs::path& path : scenes()) {
+    std::mt19937 random(3);
     const Reading original(file_text(path));
     if (original.diagnostics.has_errors()) continue;
     SCOPED_TRACE(path);
@@ -110,6 +113,17 @@ TEST(Format, AnyBlanksAndComments) {
       EXPECT_EQ(Reading(once).printed(), original.printed()) << text;
     }
   }
+}
+
+// A parameter with a block is joined to the one before where both have room on the line, the comment between
+// counted.
+TEST(Format, ACommentInAParameterCountsForTheWidth) {
+  for (std::size_t zeros = 0; zeros < 40; ++zeros)
+    lawful(support::filled(R"(sphere {
+  center: (-1.25, 0.6, -0.2)  radius: 0.6$ZEROS material /* f */ : { base_color = 0.5 }
+}
+)",
+                           {{"ZEROS", std::string(zeros, '0')}}));
 }
 
 struct Example {

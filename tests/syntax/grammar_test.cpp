@@ -15,7 +15,7 @@
 #include "syntax/format.h"
 
 namespace tyndall::syntax {
-namespace {
+namespace UNNAMED {
 
 namespace fs = std::filesystem;
 using test::Ebnf;

@@ -6,7 +6,7 @@
 #include "reading.h"
 
 namespace tyndall::syntax {
-namespace {
+namespace UNNAMED {
 
 struct Example {
   const char* text;

@@ -4,7 +4,7 @@
 #include "reading.h"
 
 namespace tyndall::syntax {
-namespace {
+namespace UNNAMED {
 
 std::string brief(const std::string& text) { return Reading(text).brief(); }
 
@@ -68,8 +68,7 @@ TEST(Mistakes, IndentationTellsTheMissingBrace) {
 }
 
 TEST(Mistakes, ItemsBeginWithAWord) {
-  EXPECT_EQ(brief("let a = 3 4"),
-            "1:11 expected a statement, found '4' [is an operator or a comma missing before it?]\n");
+  EXPECT_EQ(brief("let a = 3 4"), "1:9 one value belongs here [write (3, 4)]\n");
   EXPECT_EQ(brief("* 3"), "1:1 expected a statement, found '*' [statements begin with a word]\n");
   EXPECT_EQ(brief("else { }"), "1:1 'else' without 'if' [it follows the '}' of an 'if']\n");
   EXPECT_EQ(brief("f(x) = x"),

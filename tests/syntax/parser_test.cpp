@@ -4,7 +4,7 @@
 #include "reading.h"
 
 namespace tyndall::syntax {
-namespace {
+namespace UNNAMED {
 
 // The printed tree of an expression.
 std::string value(const std::string& text) {

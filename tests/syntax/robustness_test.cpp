@@ -8,14 +8,17 @@
 #include <sstream>
 
 #include "reading.h"
+#include "support/filled.h"
 
 namespace tyndall::syntax {
-namespace {
+namespace UNNAMED {
 
-std::string repeat(std::string_view text, int times) {
-  std::string out;
-  for (int i = 0; i < times; ++i) out += text;
-  return out;
+using support::filled;
+using support::repeated;
+
+// A form with something opened this many times, for `$OPEN`, and closed as often.
+std::string nested(std::string_view form, std::string_view open, std::string_view close, int times) {
+  return filled(form, {{"OPEN", repeated(open, times)}, {"CLOSE", repeated(close, times)}});
 }
 
 // Nothing is demanded of these but an end: the sanitizers and the parser's own checks do the rest.
@@ -26,27 +29,31 @@ void read(const std::string& text) {
 }
 
 TEST(Robustness, DeepNestingIsOneError) {
-  const std::string deep[] = {
-      "let a = " + repeat("(", 10000) + "1" + repeat(")", 10000),
-      "let a = " + repeat("[", 10000),
-      "let a = " + repeat("f(", 10000),
-      "let a = " + repeat("-", 10000) + "1",
-      "let a = " + repeat("not ", 10000) + "b",
-      "let a = " + repeat("2^", 10000) + "1",
-      "let a = " + repeat("1+", 10000) + "1",
-      "let a = b" + repeat(".x", 10000),
-      "let a = b" + repeat("(1)", 10000),
-      "let a = b" + repeat("[1]", 10000),
-      "let a = " + repeat("if b then c else ", 10000) + "d",
-      "let a = " + repeat("if ", 10000),
-      "let a = " + repeat("s { t: ", 10000),
-      repeat("group { ", 10000),
-      repeat("if a { ", 10000),
-      repeat("if a { } else ", 10000) + "{ }",
-      repeat("def f() { ", 10000),
-      "medium m() { d = " + repeat("(a * ", 10000) + "1" + repeat(")", 10000) + " }",
+  struct Deep {
+    std::string_view form, open, close = "";  // each of the two stands there ten thousand times
   };
-  for (const std::string& text : deep) {
+  const Deep deep[] = {
+      {"let a = $OPEN 1 $CLOSE", "(", ")"},
+      {"let a = $OPEN $CLOSE", "["},
+      {"let a = $OPEN $CLOSE", "f("},
+      {"let a = $OPEN 1 $CLOSE", "-"},
+      {"let a = $OPEN b $CLOSE", "not "},
+      {"let a = $OPEN 1 $CLOSE", "2^"},
+      {"let a = $OPEN 1 $CLOSE", "1+"},
+      {"let a = b $OPEN $CLOSE", ".x"},
+      {"let a = b $OPEN $CLOSE", "(1)"},
+      {"let a = b $OPEN $CLOSE", "[1]"},
+      {"let a = $OPEN d $CLOSE", "if b then c else "},
+      {"let a = $OPEN $CLOSE", "if "},
+      {"let a = $OPEN $CLOSE", "s { t: "},
+      {"$OPEN $CLOSE", "group { "},
+      {"$OPEN $CLOSE", "if a { "},
+      {"$OPEN { } $CLOSE", "if a { } else "},
+      {"$OPEN $CLOSE", "def f() { "},
+      {"medium m() { d = $OPEN 1 $CLOSE }", "(a * ", ")"},
+  };
+  for (const Deep& d : deep) {
+    const std::string text = nested(d.form, d.open, d.close, 10000);
     const Reading r(text);
     ASSERT_EQ(r.diagnostics.error_count(), 1) << text.substr(0, 30) << "\n" << r.errors();
     EXPECT_EQ(r.diagnostics.all()[0].message, "nested too deeply: at most 256 levels are read")
@@ -56,14 +63,14 @@ TEST(Robustness, DeepNestingIsOneError) {
 }
 
 TEST(Robustness, ModerateNestingIsRead) {
-  EXPECT_EQ(Reading("let a = " + repeat("(", 250) + "1" + repeat(")", 250)).errors(), "");
-  EXPECT_EQ(Reading("let a = " + repeat("1+", 250) + "1").errors(), "");
-  EXPECT_EQ(Reading(repeat("group { ", 250) + repeat("}", 250)).errors(), "");
-  EXPECT_EQ(Reading("let a = " + repeat("(1+", 120) + "1" + repeat(")", 120)).errors(), "");
+  EXPECT_EQ(Reading(nested("let a = $OPEN 1 $CLOSE", "(", ")", 250)).errors(), "");
+  EXPECT_EQ(Reading(nested("let a = $OPEN 1 $CLOSE", "1+", "", 250)).errors(), "");
+  EXPECT_EQ(Reading(nested("$OPEN $CLOSE", "group { ", "}", 250)).errors(), "");
+  EXPECT_EQ(Reading(nested("let a = $OPEN 1 $CLOSE", "(1+", ")", 120)).errors(), "");
 }
 
 TEST(Robustness, DeepStringsAreTwoErrorsAtMost) {
-  const Reading r("let a = " + repeat("\"{", 10000));
+  const Reading r(filled("let a = $OPEN", {{"OPEN", repeated("\"{", 10000)}}));
   EXPECT_LE(r.diagnostics.error_count(), 2);
   r.printed();
 }
@@ -158,5 +165,51 @@ TEST(Robustness, EveryBeginningOfAScene) {
   for (std::size_t length = 0; length <= scene.size(); ++length) read(scene.substr(0, length));
 }
 
-}  // namespace
+// Reading ends after a thousand errors, whichever there are and wherever they stand.
+TEST(Robustness, ErrorsWithoutEndEndTheReading) {
+  for (const std::string_view mistake : {"@",
+                                         "<",
+                                         "&& ",
+                                         "'a' ",
+                                         "let let ",
+                                         "f(,) ",
+                                         "a b ",
+                                         "[1 2] ",
+                                         "sphere { , } ",
+                                         "if { ",
+                                         "x = = 1 ",
+                                         "(1,2,3,4) ",
+                                         "let a = (1,,2) ",
+                                         "def f(1) ",
+                                         "\"{1 1}\" ",
+                                         "for in ",
+                                         "medium { } ",
+                                         "a: 1 ",
+                                         "let a = <1,2,3> ",
+                                         "1..2..3..4 ",
+                                         "let a == 1 ",
+                                         "t() = 1 ",
+                                         "p.x = 1 ",
+                                         "return if ",
+                                         "é ",
+                                         "\"\\q\" ",
+                                         "let a = 1 < 2 < 3 ",
+                                         "**",
+                                         "let if = 3 "})
+    for (const std::string_view open :
+         {"", "sphere { ", "let a = [", "let a = f(", "medium m() { ", "def f() = { "}) {
+      std::string text(open);
+      for (int i = 0; i < 3000; ++i) text += mistake;
+      Sources sources;
+      Symbols symbols;
+      Diagnostics diagnostics;
+      const SourceId source = sources.add("a.tyn", text);
+      const TokenList tokens = lex(sources, source, diagnostics);
+      parse(sources, source, tokens, symbols, diagnostics);
+      EXPECT_GT(diagnostics.error_count(), 0) << open << mistake;
+      EXPECT_LE(diagnostics.error_count(), 1010) << open << mistake;
+    }
+}
+
+}  // namespace UNNAMED
 }  // namespace tyndall::syntax

@@ -3,7 +3,7 @@
 #include "support.h"
 
 namespace tyndall::vm {
-namespace {
+namespace UNNAMED {
 
 struct Graph {
   Builder builder;

@@ -1,10 +1,10 @@
 // The table of built-ins is complete, sorted, and consistent with the operations.
-#include "vm/builtins.h"
+#include "vm/program/builtins.h"
 
 #include "support.h"
 
 namespace tyndall::vm {
-namespace {
+namespace UNNAMED {
 
 TEST(Builtins, HoldEveryNameOfTheLanguage) {
   for (const std::string_view name :
@@ -16,12 +16,12 @@ TEST(Builtins, HoldEveryNameOfTheLanguage) {
         "checker",  "random",     "rotate_x",     "rotate_y",   "rotate_z",  "sd_sphere", "sd_box",
         "sd_torus", "sd_capsule", "smooth_union", "blackbody",  "luminance", "keys",      "translate",
         "scale",    "rotate",     "look_at",      "matrix",     "direction", "image",     "round",
-        "sign",     "saturate"}) {
+        "sign",     "saturate",   "grid",         "bounds",     "append",    "sort",      "sum"}) {
     const Builtin* found = find_builtin(name);
     ASSERT_NE(found, nullptr) << name;
     EXPECT_EQ(found->name, name);
   }
-  EXPECT_EQ(builtins().size(), 58u);
+  EXPECT_EQ(builtins().size(), 63u);
   EXPECT_EQ(find_builtin("pi"), nullptr);
   EXPECT_EQ(find_builtin(""), nullptr);
   EXPECT_EQ(find_builtin("zzz"), nullptr);
@@ -66,5 +66,5 @@ TEST(Builtins, AreSortedDocumentedAndFitTheirOperations) {
   }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::vm

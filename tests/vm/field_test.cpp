@@ -3,7 +3,7 @@
 #include "support.h"
 
 namespace tyndall::vm {
-namespace {
+namespace UNNAMED {
 
 // Runs one field operation at many points.
 class Field {

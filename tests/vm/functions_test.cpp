@@ -3,7 +3,7 @@
 #include "support.h"
 
 namespace tyndall::vm {
-namespace {
+namespace UNNAMED {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 

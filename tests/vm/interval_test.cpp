@@ -1,11 +1,11 @@
 // Bounds are sound: every operation and generated programs, sampled densely in boxes of all sizes.
-#include "vm/interval.h"
+#include "vm/interval/interval.h"
 
 #include "random_graph.h"
 #include "support.h"
 
 namespace tyndall::vm {
-namespace {
+namespace UNNAMED {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 

@@ -3,12 +3,10 @@
 #include "support.h"
 
 namespace tyndall::vm {
-namespace {
+namespace UNNAMED {
 
 TEST(Machine, EveryOperationAgreesWithTheReferenceOnAwkwardNumbersInEverySimdClass) {
-  std::vector<std::string> classes;
-  for_each_simd_class([&](const std::string& name) {
-    classes.push_back(name);
+  for_each_simd_class([&](const std::string&) {
     Machine machine;
     for (const Op op : all_ops()) {
       const auto rows = awkward_operands(op, 4000);
@@ -24,7 +22,13 @@ TEST(Machine, EveryOperationAgreesWithTheReferenceOnAwkwardNumbersInEverySimdCla
       }
     }
   });
-  EXPECT_GE(classes.size(), 2u);  // the scalar fallback is always there
+}
+
+// Not where one is built only (src/CMakeLists.txt).
+TEST(Machine, HasSeveralSimdClasses) {
+  std::size_t classes = 0;
+  for_each_simd_class([&](const std::string&) { ++classes; });
+  EXPECT_GE(classes, 2u);  // the scalar fallback is always there
 }
 
 TEST(Machine, ALaneDependsNeitherOnItsPlaceNorOnTheBatch) {

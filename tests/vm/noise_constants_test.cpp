@@ -1,14 +1,14 @@
 // The extremes that the bounds of noise are made of, found again: noise is linear in the gradients at its
 // corners, so at any place the extreme over all hashes is a sum over corners, each with the gradient that
 // suits it best.
-#include "vm/noise_constants.h"
+#include "vm/kernels/noise_constants.h"
 
 #include <functional>
 
 #include "support.h"
 
 namespace tyndall::vm {
-namespace {
+namespace UNNAMED {
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 double fade_slope(double t) { return 30 * t * t * (t - 1) * (t - 1); }

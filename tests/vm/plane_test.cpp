@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "support.h"
-#include "vm/interval.h"
+#include "vm/interval/interval.h"
 
 namespace tyndall::vm {
-namespace {
+namespace UNNAMED {
 
 PlanePointer test_plane(int width, int height, unsigned seed = 1) {
   std::mt19937 random(seed);
@@ -23,7 +23,7 @@ Program lookup(const PlanePointer& plane) {
 }
 
 float at(const PlanePointer& plane, float u, float v) {
-  return evaluate_lane(Op::plane, std::array{u, v}, 0, 0, std::span(&plane, 1));
+  return evaluate_lane(Op::plane, std::array{u, v}, 0, 0, {.planes = {plane}, .voxels = {}});
 }
 
 // (0, 0) is the lower left corner; texels have their values in their middles; both ways it repeats.
@@ -51,7 +51,7 @@ TEST(Planes, AgreeInEverySimdClass) {
   for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {64, 128}, {3000, 2}}) {
     const PlanePointer plane = test_plane(width, height);
     const Program program = lookup(plane);
-    ASSERT_EQ(program.planes.size(), 1u);
+    ASSERT_EQ(program.tables.planes.size(), 1u);
     std::vector<float> expected(lanes.size());
     float* const output = expected.data();
     run_reference(program, lanes.from(0), lanes.size(), std::span(&output, 1));
@@ -75,6 +75,36 @@ TEST(Planes, AgreeInEverySimdClass) {
   }
 }
 
+// Of a picture in a temporary file, whose tiles have less memory than they would take.
+TEST(Planes, AreTheSameInAFile) {
+  constexpr int width = 300, height = 170;
+  const PlanePointer known = test_plane(width, height);
+  const auto paged = std::make_shared<PagedTexels>(width, height, 2, make_tile_memory(1 << 16));
+  std::vector<float> row(2 * width);
+  for (int y = height - 1; y >= 0; --y) {
+    for (int x = 0; x < width; ++x) {
+      row[static_cast<std::size_t>(2 * x)] = -1;
+      row[static_cast<std::size_t>(2 * x + 1)] = known->at(x, y);
+    }
+    ASSERT_EQ(paged->add_row(row), "");
+  }
+  Plane in_file{"in a file", width, height, {}, known->lowest, known->highest, known->hash, paged, 1};
+  const auto plane = std::make_shared<const Plane>(std::move(in_file));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) ASSERT_EQ(plane->at(x, y), known->at(x, y)) << x << ", " << y;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> uniform(-2, 2);
+  std::vector<std::array<float, 4>> rows;
+  for (int i = 0; i < 5000; ++i) rows.push_back({uniform(random), uniform(random), 0, 0});
+  const Lanes lanes(rows);
+  for_each_simd_class([&](const std::string&) {
+    Machine machine;
+    const auto expected = run(machine, lookup(known), lanes.from(0), lanes.size());
+    const auto found = run(machine, lookup(plane), lanes.from(0), lanes.size());
+    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i], expected[i]);
+  });
+}
+
 // A program holds the planes that its outputs read, each once, and no others.
 TEST(Planes, AreKeptOnlyWhereRead) {
   const PlanePointer a = test_plane(2, 2), b = test_plane(3, 3), c = test_plane(4, 4);
@@ -87,13 +117,13 @@ TEST(Planes, AreKeptOnlyWhereRead) {
   EXPECT_NE(of_a, of_b);
   const std::array outputs{of_c, of_b};
   const Program program = *builder.finish(outputs);
-  ASSERT_EQ(program.planes.size(), 2u);
+  ASSERT_EQ(program.tables.planes.size(), 2u);
   EXPECT_EQ(verify(program), "");
   const std::string listing = print(program);
   EXPECT_NE(listing.find("4 x 4"), std::string::npos) << listing;
   EXPECT_EQ(listing.find("2 x 2"), std::string::npos) << listing;
   Program broken = program;
-  broken.planes.pop_back();
+  broken.tables.planes.pop_back();
   EXPECT_NE(verify(broken).find("plane"), std::string::npos);
 }
 

@@ -3,7 +3,7 @@
 #include "support.h"
 
 namespace tyndall::vm {
-namespace {
+namespace UNNAMED {
 
 TEST(RandomPrograms, MachineReferenceAndFoldingAgree) {
   Machine machine;

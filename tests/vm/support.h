@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "support/simd_classes.h"
-#include "vm/builder.h"
-#include "vm/machine.h"
+#include "vm/builder/builder.h"
+#include "vm/run/machine.h"
 
 namespace tyndall::vm {
 
@@ -26,11 +26,11 @@ inline bool same(float a, float b) {
          std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-// But for lookups in planes, which need one: plane_test.cpp.
+// But for lookups, which need something to look up in: plane_test.cpp, voxels_test.cpp.
 inline std::vector<Op> all_ops() {
   std::vector<Op> ops;
   for (int i = 0; i < op_count; ++i)
-    if (!op_info(static_cast<Op>(i)).has(OpTrait::plane)) ops.push_back(static_cast<Op>(i));
+    if (!op_info(static_cast<Op>(i)).looks_up()) ops.push_back(static_cast<Op>(i));
   return ops;
 }
 

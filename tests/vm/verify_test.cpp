@@ -4,7 +4,7 @@
 #include "support.h"
 
 namespace tyndall::vm {
-namespace {
+namespace UNNAMED {
 
 // Two uniforms, three lane instructions, inputs p.x p.y time, two constants.
 Program sound() {

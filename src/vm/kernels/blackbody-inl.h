@@ -7,8 +7,8 @@
 #endif
 
 #include "base/interval.h"
-#include "vm/blackbody.h"
 #include "vm/kernels/arithmetic-inl.h"
+#include "vm/kernels/blackbody.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyndall::vm::HWY_NAMESPACE {

@@ -19,7 +19,7 @@
 #include "vm/kernels/pairs-inl.h"
 #include "vm/kernels/values-inl.h"
 
-#include "base/plane.h"
+#include "vm/program/tables.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyndall::vm::HWY_NAMESPACE {
@@ -27,8 +27,8 @@ namespace tyndall::vm::HWY_NAMESPACE {
 // What an instruction knows besides its operands.
 struct Options {
   int octaves = 0;
-  std::uint32_t seed = 0;                // or the index of a plane
-  const PlanePointer* planes = nullptr;  // of the program
+  std::uint32_t seed = 0;          // or the index in a table
+  const Tables* tables = nullptr;  // of the program
 };
 
 template <class V>

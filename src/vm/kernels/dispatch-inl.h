@@ -13,7 +13,8 @@
 #include "vm/kernels/interval-fields-inl.h"
 #include "vm/kernels/planes-inl.h"
 #include "vm/kernels/trigonometric-inl.h"
-#include "vm/op.h"
+#include "vm/kernels/voxels-inl.h"
+#include "vm/program/op.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyndall::vm::HWY_NAMESPACE {
@@ -41,7 +42,7 @@ struct BoundKernel;
       return bound_##name(options, b...);                               \
     }                                                                   \
   };
-#include "vm/operations.inc"
+#include "vm/program/operations.inc"
 
 }  // namespace tyndall::vm::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -14,8 +14,8 @@
 
 #include "vm/kernels/bounds-inl.h"
 #include "vm/kernels/fields-inl.h"
+#include "vm/kernels/noise_constants.h"
 #include "vm/kernels/slopes-inl.h"
-#include "vm/noise_constants.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyndall::vm::HWY_NAMESPACE {

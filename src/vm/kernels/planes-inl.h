@@ -32,15 +32,34 @@ TYNDALL_VM_INLINE auto index_of(V whole) {
   return bits(whole + V(0x1p23f)) & decltype(bits(whole))(0x7fffffu);
 }
 
+// Texels that are not in memory, one after the other.
+inline float paged_texel(const Plane& plane, std::uint32_t column, std::uint32_t row) {
+  return plane.at(static_cast<int>(column), static_cast<int>(row));
+}
+HWY_INLINE Floats paged_texel(const Plane& plane, Bits column, Bits row) {
+  constexpr std::size_t most = HWY_MAX_BYTES / sizeof(float);
+  HWY_ALIGN std::uint32_t columns[most], rows[most];
+  HWY_ALIGN float texels[most];
+  hn::Store(column.raw, BitsTag(), columns);
+  hn::Store(row.raw, BitsTag(), rows);
+  for (std::size_t i = 0; i < hn::Lanes(FloatTag()); ++i)
+    texels[i] = plane.at(static_cast<int>(columns[i]), static_cast<int>(rows[i]));
+  return Floats(hn::Load(FloatTag(), texels));
+}
+
 TYNDALL_VM_KERNEL2(plane) {
-  const Plane& plane = *options.planes[options.seed];
+  const Plane& plane = *options.tables->planes[options.seed];
   const TexelPair<V> x = texels_around(a, plane.width), y = texels_around(b, plane.height);
   const auto left = index_of(x.first), right = index_of(x.second);
+  const auto lower = index_of(y.first), upper = index_of(y.second);
   const decltype(left) width(static_cast<std::uint32_t>(plane.width));
-  const auto low = index_of(y.first) * width, high = index_of(y.second) * width;
+  const auto low = lower * width, high = upper * width;
   const float* texels = plane.texels.data();
-  const V low_left = look_up(texels, low + left), low_right = look_up(texels, low + right);
-  const V high_left = look_up(texels, high + left), high_right = look_up(texels, high + right);
+  const auto texel = [&](auto column, auto row, auto row_begin) HWY_ATTR {
+    return plane.paged ? paged_texel(plane, column, row) : look_up(texels, row_begin + column);
+  };
+  const V low_left = texel(left, lower, low), low_right = texel(right, lower, low);
+  const V high_left = texel(left, upper, high), high_right = texel(right, upper, high);
   const V below = low_left + (low_right - low_left) * x.weight;
   const V above = high_left + (high_right - high_left) * x.weight;
   return below + (above - below) * y.weight;
@@ -48,7 +67,7 @@ TYNDALL_VM_KERNEL2(plane) {
 
 // Anywhere in the picture. NaN is looked up at 0, so the value is always a number.
 TYNDALL_VM_BOUND2(plane) {
-  const Plane& plane = *options.planes[options.seed];
+  const Plane& plane = *options.tables->planes[options.seed];
   return widened(Bound<V>{V(plane.lowest), V(plane.highest), never(a.lo + b.lo)}, kernel_error, least_float);
 }
 

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "hwy/highway.h"
 
@@ -69,6 +70,13 @@ inline float replace_lanes(bool m, float a, float otherwise, float (*f)(float)) 
 }
 // table[index]; every index must be in range.
 inline float look_up(const float* table, std::uint32_t index) { return table[index]; }
+inline std::uint32_t look_up(const std::uint32_t* table, std::uint32_t index) { return table[index]; }
+// The word that stands `offset` bytes, below 2^31, after the table's begin.
+inline std::uint32_t look_up_word(const std::uint16_t* table, std::uint32_t offset) {
+  std::uint32_t word;
+  std::memcpy(&word, reinterpret_cast<const char*>(table) + offset, sizeof word);
+  return word;
+}
 
 // ---- one vector of floats
 
@@ -160,6 +168,13 @@ HWY_INLINE Floats replace_lanes(Mask m, Floats a, Floats otherwise, float (*f)(f
 }
 HWY_INLINE Floats look_up(const float* table, Bits index) {
   return hn::GatherIndex(FloatTag(), table, hn::BitCast(SignedTag(), index.raw));
+}
+HWY_INLINE Bits look_up(const std::uint32_t* table, Bits index) {
+  return hn::GatherIndex(BitsTag(), table, hn::BitCast(SignedTag(), index.raw));
+}
+HWY_INLINE Bits look_up_word(const std::uint16_t* table, Bits offset) {
+  return hn::GatherOffset(BitsTag(), reinterpret_cast<const std::uint32_t*>(table),
+                          hn::BitCast(SignedTag(), offset.raw));
 }
 
 // ---- any of them
