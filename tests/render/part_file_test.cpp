@@ -99,23 +99,43 @@ TEST_F(PartFile, NoTruncationAndNoFlippedBitIsRead) {
     }
 }
 
-// With checksums that are right: shapes that no film has, and sizes beyond the file.
+// The part with a number of its film's shape changed, and a checksum that is right.
+std::string with_shape(std::string bytes, int number, int value) {
+  const std::size_t film = bytes.find("FILM");
+  std::memcpy(bytes.data() + film + 16 + 4 * number, &value, 4);
+  ContentHash hash;
+  hash.add(std::string_view(bytes).substr(film, 16 + 32));
+  const std::uint64_t sum = hash.value();
+  std::memcpy(bytes.data() + film + 16 + 32, &sum, 8);
+  return bytes;
+}
+
+// Shapes that no film has, and sizes beyond the file.
 TEST_F(PartFile, ImpossibleShapesAreRefused) {
   ASSERT_EQ(write_part(path, "text", Film(9, 7), ""), "");
   const std::string whole = bytes();
-  const std::size_t film = whole.find("FILM");
   for (int number = 0; number < 8; ++number)
     for (const int value : {-1, 0, 2, 3, 8, 17000, 2'000'000'000, -2'000'000'000}) {
-      std::string changed = whole;
-      std::memcpy(changed.data() + film + 16 + 4 * number, &value, 4);
+      const std::string changed = with_shape(whole, number, value);
       if (changed == whole || (number == 1 && value == 8)) continue;  // a picture a row higher is one
-      ContentHash hash;
-      hash.add(std::string_view(changed).substr(film, 16 + 32));
-      const std::uint64_t sum = hash.value();
-      std::memcpy(changed.data() + film + 16 + 32, &sum, 8);
-      const PartResult result = read(changed);
-      EXPECT_FALSE(result.part) << number << " " << value;
+      EXPECT_FALSE(read(changed).part) << number << " " << value;
     }
+}
+
+// Outputs that take no room beside the film's sums, so that the file's size tells nothing of them.
+TEST_F(PartFile, OutputsThatNeedGroupsAreRefusedWithoutThem) {
+  for (const int groups : {1, error_groups}) {
+    ASSERT_EQ(write_part(path, "text", Film(9, 7, groups), ""), "");
+    const std::string whole = bytes();
+    for (const AovInfo& info : aov_infos()) {
+      const AovSet aovs = aovs_of({info.aov});
+      if (aovs.recorded()) continue;
+      const bool can_be = Film::can_be(9, 7, groups, aovs, {0, 0, 9, 7});
+      EXPECT_EQ(read(with_shape(whole, 3, static_cast<int>(aovs.bits()))).part.has_value(), can_be)
+          << info.name << " " << groups;
+      EXPECT_EQ(can_be, groups == error_groups || info.aov != Aov::halves);
+    }
+  }
 }
 
 TEST_F(PartFile, OtherFilesAreToldApart) {

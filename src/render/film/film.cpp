@@ -24,20 +24,19 @@ Vec3d mean_of(const Vec3d& sum, std::uint32_t samples) {
 
 }  // namespace
 
+bool Film::can_be(int width, int height, int groups, const AovSet& aovs, const PixelWindow& window) {
+  const auto [x0, y0, x1, y1] = window;
+  return 0 <= x0 && x0 < x1 && x1 <= width && 0 <= y0 && y0 < y1 && y1 <= height &&
+         (groups == error_groups || (groups == 1 && !aovs.has(Aov::halves)));
+}
+
 Film::Film(int width, int height, int groups, AovSet aovs, std::optional<PixelWindow> window)
     : width_(width),
       height_(height),
       groups_(groups),
       aovs_(aovs),
       window_(window.value_or(PixelWindow{0, 0, width, height})) {
-  CHECK_LE(0, window_.x0);
-  CHECK_LE(0, window_.y0);
-  CHECK_LT(window_.x0, window_.x1);
-  CHECK_LT(window_.y0, window_.y1);
-  CHECK_LE(window_.x1, width);
-  CHECK_LE(window_.y1, height);
-  CHECK(groups == 1 || groups == error_groups);
-  CHECK(groups == error_groups || !aovs.has(Aov::halves));
+  CHECK(can_be(width, height, groups, aovs, window_));
   sums_.resize(pixel_count() * static_cast<std::size_t>(groups));
   planes_.resize(pixel_count() * recorded_channels(aovs));
 }

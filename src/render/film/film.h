@@ -59,8 +59,11 @@ struct PixelWindow {
 // Pixels are named as those of the whole picture, whatever part of it the film is.
 class Film {
  public:
-  // `groups` is 1 or error_groups. Only the outputs in `aovs` take memory, and only the pixels in `window`
-  // (without one: all), which must lie within the picture.
+  // Whether there is such a film: `groups` is 1 or error_groups, which halves need, and the window lies
+  // within the picture and has pixels.
+  static bool can_be(int width, int height, int groups, const AovSet& aovs, const PixelWindow& window);
+  // Only the outputs in `aovs` take memory, and only the pixels in `window` (without one: all). Such a film
+  // can be.
   Film(int width, int height, int groups = 1, AovSet aovs = {}, std::optional<PixelWindow> window = {});
 
   // Of the whole picture.

@@ -65,10 +65,8 @@ std::optional<Film> film_of(const std::string& shape, std::uint64_t left) {
   PixelWindow window;
   for (int* number : {&window.x0, &window.y0, &window.x1, &window.y1}) in.take(*number);
   const auto aovs = AovSet::of_bits(static_cast<std::uint32_t>(aov_bits));
-  const bool good = in.done() && width >= 1 && width <= most_side && height >= 1 && height <= most_side &&
-                    (groups == 1 || groups == error_groups) && aovs && window.x0 >= 0 && window.y0 >= 0 &&
-                    window.x0 < window.x1 && window.y0 < window.y1 && window.x1 <= width &&
-                    window.y1 <= height;
+  const bool good = in.done() && width <= most_side && height <= most_side && aovs &&
+                    Film::can_be(width, height, groups, *aovs, window);
   if (!good || Film::bytes_of(window, groups, *aovs) > left) return std::nullopt;
   return Film(width, height, groups, *aovs, window);
 }
