@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t lines_of_a_kind = 48;
 // Places on a line: at first, and at most.
 constexpr std::size_t first_places = 256, most_places = 4096;
+// For graded steps so many times as many, at as many times fewer lines, until there are the most.
+constexpr std::size_t closer = 8, most_graded_places = 64 * most_places;
 // Of the shortest segments that so many places tell about.
 constexpr std::size_t places_a_segment = 4;
 // A ray is cut into no more (render/march/segment_limit.h).
@@ -81,6 +83,19 @@ EstimatedStep step_within(Pilot& pilot, double tolerance, PilotGroup& group) {
   return {metres, finest.bias * std::pow(metres / finest.size, order)};
 }
 
+// The coarsest graded step within the tolerance, by what the group's lines tell, if it takes fewer segments.
+std::optional<EstimatedStep> coarsest_graded(double tolerance, double segments, const PilotGroup& group) {
+  float most = 0;
+  for (const auto* lines : {&group.seen_cells, &group.path_cells})
+    for (const std::vector<LineCell>& cells : *lines)
+      for (const LineCell& cell : cells) most = std::max(most, cell.bounds.spread);
+  std::vector<EstimatedStep> steps;
+  double spread = group.widest * double{most};
+  for (; spread > 0 && group.graded_segments(spread) < segments; spread /= 2)
+    steps.push_back({spread, excess_of(group.graded_estimate(spread), tolerance)});
+  return coarsest_within(steps, tolerance);
+}
+
 // Steps that change from cell to cell, where they keep the tolerance with half the segments of a step that
 // does not: where a medium is rough in few places.
 std::optional<EstimatedStep> graded_within(const CompiledScene& world, Pilot& pilot, double tolerance,
@@ -89,23 +104,19 @@ std::optional<EstimatedStep> graded_within(const CompiledScene& world, Pilot& pi
   constexpr double least_segments = 128;
   const double segments = group.segments(metres);
   if (segments < least_segments) return std::nullopt;
-  // What is thinner than places are apart takes a closer look, at fewer lines.
-  if (metres < group.longest() * places_a_segment / most_places) {
-    constexpr std::size_t closer = 8;
-    for (auto* lines : {&group.seen, &group.paths}) thin_out(*lines, (lines->size() + closer - 1) / closer);
-    group.look(pilot, closer * most_places);
-  }
   BoundsScratch scratch;
   group.find_cells(world, scratch);
-  float most = 0;
-  for (const auto* lines : {&group.seen_cells, &group.path_cells})
-    for (const std::vector<LineCell>& cells : *lines)
-      for (const LineCell& cell : cells) most = std::max(most, cell.bounds.spread);
-  std::vector<EstimatedStep> steps;
-  double spread = group.widest * double{most};
-  for (; spread > 0 && group.graded_segments(spread) < segments / 2; spread /= 2)
-    steps.push_back({spread, excess_of(group.graded_estimate(spread), tolerance)});
-  std::optional<EstimatedStep> chosen = coarsest_within(steps, tolerance);
+  std::optional<EstimatedStep> chosen = coarsest_graded(tolerance, segments / 2, group);
+  // What is thinner than places are apart takes a closer look, at fewer lines.
+  for (std::size_t places = most_places; places < most_graded_places;) {
+    const double shortest = chosen ? group.shortest_graded(chosen->size) : metres;
+    if (shortest >= group.longest() * places_a_segment / static_cast<double>(places)) break;
+    places *= closer;
+    for (auto* lines : {&group.seen, &group.paths}) thin_out(*lines, (lines->size() + closer - 1) / closer);
+    group.look(pilot, places);
+    group.find_cells(world, scratch);
+    chosen = coarsest_graded(tolerance, segments / 2, group);
+  }
   if (chosen) chosen->bias = group.graded_estimate(chosen->size).bias;
   return chosen;
 }

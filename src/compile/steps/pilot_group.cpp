@@ -103,6 +103,8 @@ void PilotGroup::look(Pilot& pilot, std::size_t places) {
 }
 
 void PilotGroup::find_cells(const CompiledScene& world, BoundsScratch& scratch) {
+  seen_cells.clear();
+  path_cells.clear();
   for (const PilotLine& line : seen) seen_cells.push_back(cells_of(world, line, scratch));
   for (const PilotLine& line : paths) path_cells.push_back(cells_of(world, line, scratch));
 }
@@ -120,6 +122,15 @@ double PilotGroup::graded_segments(double most_spread) const {
     for (const std::vector<LineCell>& cells : *lines)
       for (const LinePiece& piece : graded_pieces(cells, widest, most_spread)) sum += piece.count;
   return sum / static_cast<double>(seen.size() + paths.size());
+}
+
+double PilotGroup::shortest_graded(double most_spread) const {
+  double shortest = widest;
+  for (const auto* lines : {&seen_cells, &path_cells})
+    for (const std::vector<LineCell>& cells : *lines)
+      for (const LineCell& cell : cells)
+        shortest = std::min(shortest, graded_step(widest, most_spread, cell.bounds));
+  return shortest;
 }
 
 PilotEstimate PilotGroup::estimate(double metres) const {

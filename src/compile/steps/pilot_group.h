@@ -43,6 +43,7 @@ struct PilotGroup {
   // Of marches at a step [m]; and with one that changes from cell to cell (graded_step.h).
   double segments(double metres) const;  // of a line, on average
   double graded_segments(double most_spread) const;
+  double shortest_graded(double most_spread) const;  // segment [m]
   PilotEstimate estimate(double metres) const;
   PilotEstimate graded_estimate(double most_spread) const;
 };
