@@ -43,6 +43,8 @@ OIIO::ImageSpec spec_of(const Image& image, const Metadata& metadata, Format for
     return spec;
   }
   spec.attribute("oiio:ColorSpace", "sRGB");
+  // Of half a step of 8 bits at most, the same for the same picture: slow gradients of fog show no bands.
+  if (spec.format == OIIO::TypeDesc::UINT8) spec.attribute("oiio:dither", 1);
   if (format == Format::jpeg) {
     spec.attribute("compression", "jpeg:95");
     spec.attribute("jpeg:subsampling", "4:4:4");

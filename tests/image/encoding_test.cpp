@@ -21,20 +21,46 @@ float red(const std::string& path, std::optional<Encoding> encoding) {
   return planes.empty() ? -1 : planes[0]->at(0, 0);
 }
 
+// Of a whole number of the 255 steps, which every format keeps.
 TEST(Encodings, AreTheFilesOrOnesOwn) {
-  const Image grey{1, 1, {"R", "G", "B"}, {0.2f, 0.2f, 0.2f}};
+  constexpr double code = 124.0 / 255;
+  const double linear = std::pow((code + 0.055) / 1.055, 2.4);
+  const auto value = static_cast<float>(linear);
+  const Image grey{1, 1, {"R", "G", "B"}, {value, value, value}};
   const auto folder = test_folder();
   const std::string png = (folder / "tyndall-encoding.png").string(),
                     exr = (folder / "tyndall-encoding.exr").string();
   ASSERT_EQ(write(png, grey, {}), "");
   ASSERT_EQ(write(exr, grey, {}), "");
-  const auto code = [](double linear) { return 1.055 * std::pow(linear, 1 / 2.4) - 0.055; };
-  EXPECT_NEAR(red(png, std::nullopt), 0.2, 2e-3);  // of 255 steps
-  EXPECT_NEAR(red(png, Encoding::srgb), 0.2, 2e-3);
-  EXPECT_NEAR(red(png, Encoding::linear), code(0.2), 2e-3);
-  EXPECT_EQ(red(exr, std::nullopt), 0.2f);
-  EXPECT_EQ(red(exr, Encoding::linear), 0.2f);
-  EXPECT_NEAR(code(static_cast<double>(red(exr, Encoding::srgb))), 0.2, 1e-6);
+  EXPECT_NEAR(red(png, std::nullopt), linear, 1e-6);
+  EXPECT_NEAR(red(png, Encoding::srgb), linear, 1e-6);
+  EXPECT_NEAR(red(png, Encoding::linear), code, 1e-6);
+  EXPECT_EQ(red(exr, std::nullopt), value);
+  EXPECT_EQ(red(exr, Encoding::linear), value);
+  const auto again = static_cast<double>(red(exr, Encoding::srgb));
+  EXPECT_NEAR(1.055 * std::pow(again, 1 / 2.4) - 0.055, linear, 1e-6);
+}
+
+// Between two steps of 8 bits, pixels take either, so often that their mean is the value: no bands.
+TEST(Encodings, OfEightBitsAreDithered) {
+  const std::string png = (test_folder() / "grey.png").string();
+  View view;
+  view.tonemap = Tonemap::none;
+  for (const double step : {60.0, 60.25, 60.5, 60.75}) {
+    const auto value = static_cast<float>(linear_from_srgb(static_cast<float>(step / 255)));
+    Image grey{64, 64, {"R", "G", "B"}, {}};
+    grey.pixels.assign(64 * 64 * 3, value);
+    ASSERT_EQ(write(png, grey, {}, view), "");
+    const ReadResult back = read(png);
+    ASSERT_TRUE(back.image) << back.error;
+    double sum = 0;
+    for (const float linear : back.image->pixels) {
+      const double code = 255 * (1.055 * std::pow(double{linear}, 1 / 2.4) - 0.055);
+      EXPECT_LT(std::abs(code - step), step == 60 ? 0.01 : 1.01);
+      sum += code;
+    }
+    EXPECT_NEAR(sum / (64 * 64 * 3), step, 0.03) << step;
+  }
 }
 
 }  // namespace UNNAMED
