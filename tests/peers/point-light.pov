@@ -18,3 +18,5 @@ box {
     media { scattering { 1, rgb 0.45 extinction 1 }  absorption rgb 0.05  method 3  intervals 1  samples Samples, Samples }
   }
 }
+// Without a surface on the way POV-Ray does not let media attenuate the light.
+sphere { <0.3, -0.2, 0.4>, 0.01  hollow  pigment { rgbt 1 }  interior { } }

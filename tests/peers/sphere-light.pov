@@ -19,3 +19,5 @@ box {
   }
 }
 sphere { <0, 0.1, 0.2>, 0.4  pigment { rgb 0 }  finish { ambient 0 diffuse 0 } }
+// Without a surface on the way POV-Ray does not let media attenuate the light.
+sphere { <0, 1.2, 0.5>, 0.11  hollow  pigment { rgbt 1 }  interior { } }
