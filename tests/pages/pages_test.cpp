@@ -208,14 +208,18 @@ TEST_F(Pages, GoldenShowsWhatDiffers) {
   fs::create_directory(path("tests"));
   smoke("tests/a.tyn", 6);
   smoke("tests/b.tyn", 6);
+  smoke("tests/c.tyn", 6);
   ASSERT_EQ(tyndall({"golden", path("tests"), "--update"}).status, 0);
   smoke("tests/b.tyn", 7);
+  file("tests/c.tyn", "let a =\n  <&b>\n");
   const Outcome outcome = tyndall({"golden", path("tests"), "--report", path("page.html"), "--json"});
-  ASSERT_EQ(outcome.status, 3) << outcome.err;
+  ASSERT_EQ(outcome.status, 1) << outcome.err;
   const json results = json::parse(outcome.out)["results"], found = open(path("page.html"), golden_probe);
   expect_sound(found);
-  EXPECT_EQ(found["title"], "Golden tests: 1 of 2 did not pass");
-  ASSERT_EQ(found["rows"].size(), 2u);
+  EXPECT_EQ(found["title"], "Golden tests: 2 of 3 did not pass");
+  ASSERT_EQ(found["rows"].size(), 3u);
+  const std::string message = results[2]["message"];
+  EXPECT_EQ(found["rows"][2]["cells"][5], message.substr(0, message.find('\n')));
   for (std::size_t i = 0; i < 2; ++i) {
     const json& cells = found["rows"][i]["cells"];
     EXPECT_EQ(cells[0], results[i]["outcome"]);
@@ -224,7 +228,8 @@ TEST_F(Pages, GoldenShowsWhatDiffers) {
     EXPECT_EQ(cells[3], fmt::format("{:.3g}", results[i]["flip"].get<double>()));
   }
   EXPECT_NE(found["rows"][0]["color"], found["rows"][1]["color"]);
-  ASSERT_EQ(found["sections"].size(), 1u);
+  ASSERT_EQ(found["sections"].size(), 2u);
+  EXPECT_EQ(found["sections"][1]["captions"], json::array()) << "there is no picture";
   const json& section = found["sections"][0];
   EXPECT_EQ(section["title"], path("tests/b.tyn"));
   EXPECT_EQ(section["captions"].size(), 3u);

@@ -23,10 +23,8 @@ parser.add_argument("--scene", required=True, choices=["point-light", "sphere-li
 parser.add_argument("--samples", type=int, required=True)
 parser.add_argument("--seed", type=int, required=True)
 parser.add_argument("--bounces", type=int, required=True)
-parser.add_argument("--step-rate", type=float, default=1.0, help="1 is Cycles' default")
 parser.add_argument("--no-sky", action="store_true", help="without the cloud's sky")
 parser.add_argument("--grid", help="the file of the smoke")
-parser.add_argument("--albedo", type=float, help="of the medium, instead of the scene's")
 parser.add_argument("--resolution", default="320x240")
 parser.add_argument("--out", required=True)
 options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
@@ -57,7 +55,7 @@ def settings():
     cycles.volume_bounces = options.bounces
     cycles.max_bounces = options.bounces + 2
     cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = 0
-    cycles.volume_step_rate, cycles.volume_max_steps = options.step_rate, 65536
+    cycles.volume_step_rate, cycles.volume_max_steps = 1, 65536
     cycles.tile_size, cycles.use_auto_tile = 2048, False
 
 
@@ -173,7 +171,6 @@ class Nodes:
         return node.outputs["Result"]
 
     def medium(self, extinction, albedo, anisotropy):
-        albedo = albedo if options.albedo is None else options.albedo
         color = (albedo,) * 3 + (1,)
         scatter = self.tree.nodes.new("ShaderNodeVolumeScatter")
         absorb = self.tree.nodes.new("ShaderNodeVolumeAbsorption")  # takes (1 - color) * density
@@ -220,9 +217,8 @@ def cloud():
     height = n.math("MULTIPLY_ADD", waves, 0.12, n.math("MULTIPLY_ADD", detail, 0.2, n.math("SUBTRACT", 0.65, radius)))
     density = n.math("MULTIPLY", n.smoothstep(0.0, 0.4, height), 20.0)
     box((1.4, 1.4, 1.4), n.medium(density, 0.99, 0.6))
-    world(1.0 if options.albedo is not None else 0.0 if options.no_sky else 0.1)
-    if options.albedo is None:
-        sun((0.7, 0.3, 0.7), 5)
+    world(0.0 if options.no_sky else 0.1)
+    sun((0.7, 0.3, 0.7), 5)
     camera((0, -6, 0.6), (0, 0, 0), 28)
 
 
