@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <span>
 
@@ -29,8 +30,20 @@ namespace {
 namespace fs = std::filesystem;
 using image::Image;
 
-GoldenScene golden_of(const fs::path& scene) {
-  return {scene.string(), fs::path(scene).replace_extension(".exr").string()};
+GoldenScene golden_of(const fs::path& scene, const std::string& references) {
+  const fs::path folder = references.empty() ? scene.parent_path() : fs::path(references);
+  return {scene.string(), (folder / scene.stem()).string() + ".exr"};
+}
+
+// Two scenes of one name in two folders, where the references are in a third.
+std::string shared_reference(const std::vector<GoldenScene>& scenes) {
+  std::map<std::string, std::string> scene_of;
+  for (const GoldenScene& golden : scenes)
+    if (const auto [other, is_new] = scene_of.emplace(golden.reference, golden.scene);
+        !is_new && other->second != golden.scene)
+      return fmt::format("'{}' would be the reference of both '{}' and '{}': test them by two commands",
+                         golden.reference, other->second, golden.scene);
+  return {};
 }
 
 // A picture of R, G and B; nothing where it has not all three.
@@ -254,12 +267,12 @@ std::string_view name(GoldenOutcome outcome) {
   return "";
 }
 
-GoldenScenes find_golden_scenes(const std::vector<std::string>& paths) {
+GoldenScenes find_golden_scenes(const std::vector<std::string>& paths, const std::string& references) {
   GoldenScenes found;
   for (const std::string& path : paths) {
     std::error_code failed;
     if (fs::is_regular_file(path, failed) && path.ends_with(".tyn")) {
-      found.scenes.push_back(golden_of(path));
+      found.scenes.push_back(golden_of(path, references));
       continue;
     }
     if (!fs::is_directory(path, failed)) {
@@ -269,7 +282,7 @@ GoldenScenes find_golden_scenes(const std::vector<std::string>& paths) {
     const std::size_t before = found.scenes.size();
     std::error_code unreadable;
     for (fs::directory_iterator at(path, unreadable), end; !unreadable && at != end; at.increment(unreadable))
-      if (at->path().extension() == ".tyn") found.scenes.push_back(golden_of(at->path()));
+      if (at->path().extension() == ".tyn") found.scenes.push_back(golden_of(at->path(), references));
     if (unreadable) {
       found.problem = fmt::format("cannot read the folder '{}': {}", path, unreadable.message());
       return found;
@@ -284,6 +297,7 @@ GoldenScenes find_golden_scenes(const std::vector<std::string>& paths) {
     std::sort(found.scenes.begin() + static_cast<std::ptrdiff_t>(before), found.scenes.end(),
               [](const GoldenScene& a, const GoldenScene& b) { return a.scene < b.scene; });
   }
+  found.problem = shared_reference(found.scenes);
   return found;
 }
 

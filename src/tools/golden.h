@@ -16,13 +16,14 @@ struct GoldenArguments {
   bool statistical = false, update = false;
   std::optional<std::uint64_t> seed;
   std::optional<double> max;
+  std::string references;  // the folder of the references; empty: each is beside its scene
   std::string report, junit;
   std::vector<std::string> include_directories;
   bool allow_outside = false, json = false;
   int threads = 0;
 };
 
-// A scene and the picture beside it.
+// A scene and the picture that it is compared with.
 struct GoldenScene {
   std::string scene, reference;
 };
@@ -44,12 +45,13 @@ struct GoldenResult {
 
 std::string_view name(GoldenOutcome outcome);
 
-// The scenes that the paths name, in order of their names; a message where a path is none.
+// The scenes that the paths name, in order of their names; a message where a path is none, or where two
+// scenes would have one reference.
 struct GoldenScenes {
   std::vector<GoldenScene> scenes;
   std::string problem;
 };
-GoldenScenes find_golden_scenes(const std::vector<std::string>& paths);
+GoldenScenes find_golden_scenes(const std::vector<std::string>& paths, const std::string& references);
 
 // Renders a scene and compares it with its reference, or with --update puts the picture in its place.
 // `directory` is for pictures on the way, `number` tells the scene apart there.

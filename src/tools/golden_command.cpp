@@ -169,7 +169,10 @@ ExitStatus run_golden_tests(const GoldenArguments& arguments) {
     return misuse("--update renders references with their own seed: leave out --statistical");
   if (arguments.max && (arguments.statistical || arguments.update))
     return misuse("--max limits the difference of pixels: leave it out with --statistical and --update");
-  const GoldenScenes found = find_golden_scenes(arguments.paths);
+  if (std::error_code ignored;
+      !arguments.references.empty() && !fs::is_directory(arguments.references, ignored))
+    return fail_golden(fmt::format("--references wants a folder, and '{}' is none", arguments.references));
+  const GoldenScenes found = find_golden_scenes(arguments.paths, arguments.references);
   if (!found.problem.empty()) return fail_golden(found.problem);
   if (const std::string problem = outputs_problem(arguments, found.scenes); !problem.empty())
     return fail_golden(problem);
@@ -200,6 +203,10 @@ Action golden_options(CLI::App& command) {
             "With --statistical: the seed; without it, the one after the reference's");
   add_real(command, "--max", arguments->max,
            "Let pictures pass whose relmse is at most this; without it they must be equal");
+  command
+      .add_option("--references", arguments->references,
+                  "The folder of the references; without it, each is beside its scene")
+      ->option_text("DIR");
   command.add_flag("--update", arguments->update, "Render the references, and tell what has changed");
   command
       .add_option("--report", arguments->report,

@@ -31,6 +31,9 @@ std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.3g}", *value) : std::string("–");
 }
 
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+// All of a message stands in the section below.
 std::string row(const GoldenResult& result) {
   std::string notes;
   for (const std::string& note : result.notes)
@@ -38,7 +41,8 @@ std::string row(const GoldenResult& result) {
   return fmt::format(
       "<tr class=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f} s</td><td>{}{}</td></tr>\n",
       is_good(result) ? "good" : "bad", name(result.outcome), escaped_text(result.golden.scene),
-      number(result.relative_mse), number(result.flip), result.seconds, escaped_text(result.message), notes);
+      number(result.relative_mse), number(result.flip), result.seconds,
+      escaped_text(first_line(result.message)), notes);
 }
 
 // The pictures of a test that did not pass, as far as there are any.
@@ -57,6 +61,7 @@ constexpr std::string_view style = R"(
 body { font: 15px/1.45 system-ui, sans-serif; margin: 2em auto; max-width: 75em; padding: 0 1em; color: #222; background: #fafafa }
 table { border-collapse: collapse; width: 100% }
 th, td { text-align: left; padding: .3em .6em; border-bottom: 1px solid #ddd; vertical-align: top }
+td:nth-child(n+3):nth-child(-n+5) { white-space: nowrap }
 tr.bad td:first-child { color: #b00020; font-weight: bold }
 tr.good td:first-child { color: #1b7f3b }
 section { margin-top: 2em }
@@ -86,7 +91,9 @@ std::string golden_html(const GoldenArguments& arguments, const std::vector<Gold
       : arguments.statistical ? "Statistical: rendered with other seeds, compared by z-tests"
                               : "Rendered with the seeds of the references, compared pixel by pixel",
       escaped_text(machine));
-  text += "<table><tr><th></th><th>scene</th><th>relmse</th><th>FLIP</th><th>time</th><th></th></tr>\n";
+  text +=
+      "<table><tr><th>outcome</th><th>scene</th><th>relmse</th><th>FLIP</th><th>time</th><th>found</th></"
+      "tr>\n";
   for (const GoldenResult& result : results) text += row(result);
   text += "</table>\n";
   for (const GoldenResult& result : results) text += section(result);
@@ -106,7 +113,6 @@ std::string golden_junit(const std::vector<GoldenResult>& results, const std::st
                     escaped_text(scene.generic_string()), result.seconds);
     std::string all = result.message;
     for (const std::string& note : result.notes) all += "\n" + note;
-    const std::string first = result.message.substr(0, result.message.find('\n'));
     const bool differs = result.outcome == GoldenOutcome::differs;
     failures += differs ? 1 : 0;
     errors += result.outcome == GoldenOutcome::problem ? 1 : 0;
@@ -114,7 +120,7 @@ std::string golden_junit(const std::vector<GoldenResult>& results, const std::st
       cases += fmt::format("      <system-out>{}</system-out>\n", escaped_text(all));
     else
       cases += fmt::format("      <{0} message=\"{1}\">{2}</{0}>\n", differs ? "failure" : "error",
-                           escaped_text(first), escaped_text(all));
+                           escaped_text(first_line(result.message)), escaped_text(all));
     cases += "    </testcase>\n";
   }
   const std::string counts = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\"",

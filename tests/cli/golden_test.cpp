@@ -107,6 +107,28 @@ TEST_F(Golden, ReferencesKeepTheirOptions) {
   EXPECT_EQ(read.image->width, 16);
 }
 
+TEST_F(Golden, ReferencesMayHaveAFolderOfTheirOwn) {
+  scene("a.tyn");
+  fs::create_directories(path("pictures"));
+  const std::vector<std::string> there{"--references", path("pictures")};
+  EXPECT_EQ(golden(there).status, 1) << "there is no reference yet";
+  EXPECT_EQ(golden({"--update", "--references", path("pictures")}).status, 0);
+  EXPECT_TRUE(fs::exists(path("pictures/a.exr")));
+  EXPECT_FALSE(fs::exists(path("tests/a.exr")));
+  EXPECT_EQ(golden(there).status, 0);
+  scene("a.tyn", "1.01");
+  EXPECT_EQ(golden(there).status, 3);
+
+  fs::create_directories(path("others"));
+  const std::string other = file("others/a.tyn", read_file(path("tests/a.tyn")));
+  const Outcome both = tyndall({"golden", path("tests"), other, "--references", path("pictures")});
+  EXPECT_EQ(both.status, 1);
+  expect_told(both.err, {"would be the reference of both", "tests/a.tyn", "others/a.tyn"});
+  const Outcome nowhere = golden({"--references", path("nowhere")});
+  EXPECT_EQ(nowhere.status, 1);
+  expect_told(nowhere.err, {"--references wants a folder"});
+}
+
 TEST_F(Golden, ErrorsTeach) {
   fs::create_directories(path("tests"));
   const Outcome none = golden();

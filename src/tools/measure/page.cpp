@@ -14,12 +14,16 @@ namespace tyndall::tools {
 namespace {
 
 constexpr const char* style = R"(
-body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 1180px; padding: 0 1rem; color: #222; background: #fdfdfb; }
-h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin-top: 2.2rem; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; } .wide { overflow-x: auto; }
-th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap; }
+body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 1220px; padding: 0 1rem; color: #222; background: #fdfdfb; }
+h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin-top: 2.2rem; } h3 { font-size: 1rem; margin: .4rem 0; }
+table { border-collapse: collapse; font-size: .8rem; font-variant-numeric: tabular-nums; } .wide { overflow-x: auto; }
+th, td { padding: .25rem .4rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; } tr.front td:first-child { font-weight: 600; }
-.plots, .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(330px, 1fr)); gap: 1.2rem; }
+.plots, .pictures, #advice { display: grid; gap: 1.2rem; }
+.plots { grid-template-columns: repeat(auto-fit, minmax(min(460px, 100%), 1fr)); align-items: end; }
+.pictures { grid-template-columns: repeat(auto-fill, minmax(min(270px, 100%), 1fr)); }
+.reference { grid-column: 1 / -1; width: min(270px, 100%); }
+#advice { grid-template-columns: repeat(auto-fit, minmax(min(330px, 100%), 1fr)); } #advice p { margin: .3rem 0; }
 figure { margin: 0; } figcaption { font-size: .87rem; color: #444; } svg { width: 100%; background: #fff; border: 1px solid #e4e4e0; }
 .grid { stroke: #eee; } .tick { font-size: 11px; fill: #555; } .axis { font-size: 12px; fill: #222; }
 .point { fill: #b3402a; stroke: #b3402a; stroke-width: 1.5; } .hollow { fill: #fff; } .interval { stroke: #b3402a; }
@@ -27,7 +31,7 @@ figure { margin: 0; } figcaption { font-size: .87rem; color: #444; } svg { width
 .expected { fill: none; stroke: #33618f; stroke-dasharray: 6 4; }
 .pair { position: relative; display: block; } .pair img { width: 100%; display: block; image-rendering: pixelated; }
 .pair img + img { position: absolute; inset: 0; clip-path: inset(0 0 0 var(--wipe, 50%)); }
-pre { background: #f2f2ec; padding: .6rem .9rem; overflow-x: auto; } input[type=range] { width: min(480px, 100%); }
+pre { background: #f2f2ec; padding: .6rem .9rem; font-size: .87rem; white-space: pre-wrap; } input[type=range] { width: min(480px, 100%); }
 )";
 
 constexpr const char* script = R"(
@@ -75,9 +79,9 @@ std::string table_html(const MeasureReport& report) {
 }
 
 std::string advice_html(const Advice& advice) {
-  const std::string wanted = fmt::format("<h3>An error of {:g} %</h3>\n", 100 * advice.error);
+  const std::string wanted = fmt::format("<div><h3>An error of {:g} %</h3>\n", 100 * advice.error);
   if (advice.setting.empty())
-    return wanted + fmt::format("<p>{}</p>\n", escaped_text(why_not_reached(advice)));
+    return wanted + fmt::format("<p>{}</p></div>\n", escaped_text(why_not_reached(advice)));
   std::string html =
       wanted + fmt::format("<p>{}, {} samples, about {:.3g} s{}.</p>\n<pre>{}</pre>\n",
                            escaped_text(advice.setting), advice.samples, advice.seconds,
@@ -86,7 +90,7 @@ std::string advice_html(const Advice& advice) {
   if (!advice.options.empty())
     html += fmt::format("<p>with the options <code>{}</code></p>\n",
                         escaped_text(fmt::format("{}", fmt::join(advice.options, " "))));
-  return html;
+  return html + "</div>\n";
 }
 
 std::string pair_html(const std::string& caption, const std::string& picture, const std::string& errors) {
@@ -100,15 +104,14 @@ std::string pictures_html(const PagePictures& pictures) {
   if (pictures.reference.empty()) return {};
   std::string html = fmt::format(
       "<h2>Pictures</h2>\n<p>The slider moves the edge between each picture, on the left, and its error map. "
-      "Dark is no "
-      "error, light is {:.3g} % of the light and more. One render shows bias and noise, the mean of all "
-      "hardly more than "
-      "bias.</p>\n<p><input id=\"wipe\" type=\"range\" min=\"0\" max=\"100\" value=\"50\" "
-      "aria-label=\"picture or error "
-      "map\"></p>\n<div class=\"pictures\">\n",
-      100 * pictures.most_error);
+      "Black is no error; the lightest colour is an error of {} % of the pixel's own light, and more. One "
+      "render shows bias and noise, the mean of all hardly more than bias.</p>\n<p><input id=\"wipe\" "
+      "type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"picture or error map\"></p>\n"
+      "<div class=\"pictures\">\n",
+      percent_digits(pictures.most_error, 2));
   html += fmt::format(
-      "<figure><span class=\"pair\"><img src=\"{}\" alt=\"reference\"></span><figcaption>reference"
+      "<figure class=\"reference\"><span class=\"pair\"><img src=\"{}\" "
+      "alt=\"reference\"></span><figcaption>reference"
       "</figcaption></figure>\n",
       pictures.reference);
   for (const SettingPictures& one : pictures.settings) {

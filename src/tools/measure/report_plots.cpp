@@ -115,7 +115,8 @@ std::vector<Plot> plots_of(const MeasureReport& report) {
     for (const auto& [parameter, value] : report.rows[0].swept) {
       if (parameter == "samples") continue;
       Plot plot = bias_plot(report, parameter);
-      if (plot.points.size() > 1) plots.push_back(std::move(plot));
+      const auto differs = [&plot](const PlotPoint& point) { return point.x != plot.points[0].x; };
+      if (std::any_of(plot.points.begin(), plot.points.end(), differs)) plots.push_back(std::move(plot));
     }
   plots.push_back(noise_plot(report));
   return plots;
