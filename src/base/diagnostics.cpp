@@ -32,14 +32,24 @@ void Diagnostics::warning(Span span, std::string message, std::string help,
   add({Severity::warning, span, std::move(message), std::move(help), std::move(notes)});
 }
 
+void Diagnostics::note(Span span, std::string message) {
+  const auto is_note = [](const Diagnostic& other) { return other.severity == Severity::note; };
+  const auto notes = std::count_if(list_.begin(), list_.end(), is_note);
+  if (notes > max_notes) return;
+  if (notes == max_notes) message = fmt::format("more than {} notes: the rest is left out", max_notes);
+  add({Severity::note, span, std::move(message), {}, {}});
+}
+
 void Diagnostics::add(Diagnostic d) {
   const auto same = [&](const Diagnostic& other) {
     return other.severity == d.severity && other.span == d.span && other.message == d.message;
   };
   if (std::any_of(list_.begin(), list_.end(), same)) return;
-  const bool is_error = d.severity == Severity::error;
-  int& count = is_error ? error_count_ : warning_count_;
-  if (++count > (is_error ? max_errors : max_warnings)) return;
+  if (d.severity != Severity::note) {
+    const bool is_error = d.severity == Severity::error;
+    int& count = is_error ? error_count_ : warning_count_;
+    if (++count > (is_error ? max_errors : max_warnings)) return;
+  }
   d.notes.insert(d.notes.end(), context_.rbegin(), context_.rend());
   list_.push_back(std::move(d));
 }

@@ -27,16 +27,20 @@ struct Diagnostic {
   std::vector<Note> notes;
 };
 
-// Collects messages. Errors past `max_errors` are counted, not kept. Two messages of the same text at the
-// same place are one.
+// Collects messages. Errors past `max_errors` are counted, not kept; notes past `max_notes` are left out,
+// which the last one says. Two messages of the same text at the same place are one.
 class Diagnostics {
  public:
   static constexpr int max_errors = 20;
   static constexpr int max_warnings = 20;
+  static constexpr int max_notes = 200;
 
   void error(Span span, std::string message, std::string help = {}, std::vector<Diagnostic::Note> notes = {});
   void warning(Span span, std::string message, std::string help = {},
                std::vector<Diagnostic::Note> notes = {});
+
+  // What the scene asked to be told: `print`.
+  void note(Span span, std::string message);
 
   // The same, unless the message has been reported at any place: what is missing is missed once, however
   // often it is used.

@@ -59,9 +59,16 @@ Handlers keys_handler(std::string_view name);       // builtins_keys.cpp
 Handlers image_handler(std::string_view name);      // builtins_image.cpp
 Handlers grid_handler(std::string_view name);       // builtins/grid.cpp
 Handlers list_handler(std::string_view name);       // builtins/lists.cpp
+Handlers solid_handler(std::string_view name);      // builtins/solids.cpp
+Handlers field_handler(std::string_view name);      // builtins/fields.cpp
+Handlers sky_handler(std::string_view name);        // builtins/sky.cpp
+Handlers print_handler(std::string_view name);      // builtins/print.cpp
 
 // Of a call of min or max with one list: its least or greatest entry, in each component (builtins/lists.cpp).
 std::optional<Value> extreme_entry(CallSite& site);
+
+// The plane at (u, v), bilinear.
+Scalar texel_at(Evaluator& evaluator, const PlanePointer& plane, const Scalar& u, const Scalar& v, Span span);
 
 // The image at the place that the call's one argument, a pair, names (builtins_image.cpp).
 Value look_up(Evaluator& evaluator, const Image& image, const syntax::SyntaxTree& tree,

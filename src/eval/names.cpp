@@ -23,8 +23,9 @@ static Handlers handlers_of(const vm::Builtin& row) {
     case vm::Shape::custom:
       break;
   }
-  for (const auto find : {vector_handler, transform_handler, phase_handler, keys_handler, image_handler,
-                          grid_handler, list_handler})
+  for (const auto find :
+       {vector_handler, transform_handler, phase_handler, keys_handler, image_handler, grid_handler,
+        list_handler, solid_handler, field_handler, sky_handler, print_handler})
     if (const Handlers handlers = find(row.name); handlers.bound || handlers.free) return handlers;
   return {};
 }

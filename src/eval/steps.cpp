@@ -8,6 +8,7 @@
 #include "eval/evaluator.h"
 #include "eval/lists.h"
 #include "eval/operators.h"
+#include "eval/printing.h"
 #include "eval/symbol_stack.h"
 #include "syntax/foreign_words.h"
 
@@ -50,7 +51,7 @@ class Steps {
         this->assign(item, *assign, scope);
       else if (const auto* result = std::get_if<ReturnItem>(&item.node))
         returned = this->result(*result, item.span, scope);
-      else if (!ev_.define(tree_, item, scope))
+      else if (!ran_print(ev_, tree_, item, scope) && !ev_.define(tree_, item, scope))
         ev_.error(item.span,
                   outputs_ ? "a body only computes: nothing can be placed in it"
                            : "a function only computes: nothing can be placed in it",

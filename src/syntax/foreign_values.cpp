@@ -9,7 +9,8 @@ constexpr std::string_view color = "a colour is (r, g, b), linear, or #ff8800";
 constexpr std::string_view vec = "a vec is written (x, y, z), a pair (x, y)";
 constexpr std::string_view noise = "write noise(p), or fbm(p, octaves: 5) with finer detail";
 constexpr std::string_view fbm = "write fbm(p, octaves: 5)";
-constexpr std::string_view cells = "write cells(p)";
+constexpr std::string_view cells =
+    "write worley(p): .x and .y are the distances to the nearest points, .z is a number of the cell";
 constexpr std::string_view phase = "write hg(0.8), or droplets(0.02mm) for fog and clouds";
 constexpr std::string_view mix = "write mix(a, b, w)";
 constexpr std::string_view remap = "write remap(x, from_low, from_high, to_low, to_high)";
@@ -35,8 +36,7 @@ constexpr ForeignWord values[] = {
     {"rgbf", color},
     {"rgbt", color},
     {"rgbft", color},
-    {"hsv", color},
-    {"hsl", color},
+    {"hsl", "write hsv(hue, saturation, value)"},
     {"color", color},
     {"colour", color},
     {"Color", color},
@@ -77,11 +77,12 @@ constexpr ForeignWord values[] = {
     {"granite", fbm},
     {"wrinkles", "write turbulence(p)"},
     {"ridged_mf", "write ridged(p)"},
-    {"worley", cells},
     {"voronoi", cells},
     {"cellular", cells},
     {"crackle", cells},
     {"cellnoise", cells},
+    {"vector_noise", "write vnoise(p)"},
+    {"domain_warp", "write warp(p, 0.5)"},
     {"curl_noise", "write curl(p)"},
     {"curlnoise", "write curl(p)"},
     // phase functions
@@ -221,7 +222,6 @@ constexpr ForeignWord values[] = {
     {"quaternion", turn},
     {"euler", turn},
     {"translation", "write translate((x, y, z))"},
-    {"print", "nothing is printed: `tyndall inspect` shows what a scene became"},
 };
 
 // Words between two values.

@@ -23,6 +23,8 @@ constexpr std::string_view mesh = "write mesh { points: [ … ] triangles: [ …
 constexpr std::string_view no_files =
     "meshes are not read from files: write mesh { points: [ … ] triangles: [ … ] }";
 constexpr std::string_view sky = "write light environment { radiance: … }";
+constexpr std::string_view clear_sky =
+    "write light sky { sun: (1, 0.5, 0) }, or light environment { radiance: … }";
 constexpr std::string_view sun = "write light distant { direction: … irradiance: … }";
 constexpr std::string_view lamp = "write light point { position: … power: … }, or light sphere { … }";
 constexpr std::string_view spot = "write light spot { position: … to: … angle: … power: … }";
@@ -30,7 +32,7 @@ constexpr std::string_view panel = "write light quad { center: … u: … v: …
 constexpr std::string_view render = "write render { resolution: (width, height) samples: … }";
 constexpr std::string_view loop = "write for i in 0..<10 { … }";
 constexpr std::string_view include = "write include \"file.tyn\"";
-constexpr std::string_view no_printing = "nothing is printed: `tyndall inspect` shows what a scene became";
+constexpr std::string_view no_printing = "write print(\"radius\", radius)";
 constexpr std::string_view no_break =
     "a loop runs to its end: put what may be left out in if condition { … }";
 constexpr std::string_view else_if = "write else if condition { … }";
@@ -86,7 +88,7 @@ constexpr ForeignWord statements[] = {
     {"lamp", lamp},
     {"directional_light", sun},
     {"sun", sun},
-    {"sky", sky},
+    {"sky", clear_sky},
     {"background", sky},
     {"sky_sphere", sky},
     {"environment", sky},
@@ -140,7 +142,6 @@ constexpr ForeignWord statements[] = {
     {"use", include},
     {"using", include},
     {"require", include},
-    {"print", no_printing},
     {"echo", no_printing},
     {"break", no_break},
     {"continue", no_break},
@@ -240,8 +241,8 @@ constexpr ForeignWord lights[] = {
     {"plane", panel},
     {"panel", panel},
     {"ambient", sky},
-    {"sky", sky},
-    {"skydome", sky},
+    {"skydome", clear_sky},
+    {"atmosphere", clear_sky},
     {"dome", sky},
     {"hdri", sky},
     {"hdr", sky},

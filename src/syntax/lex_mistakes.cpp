@@ -156,7 +156,7 @@ void Lexer::hash() {
       {"macro", TokenKind::kw_def, "write def name(parameters) { … }"},
       {"include", TokenKind::kw_include, "write include \"file.tyn\""},
       {"version", TokenKind::error, "leave it out"},
-      {"debug", TokenKind::error, "nothing is printed: `tyndall inspect` shows what a scene became"},
+      {"debug", TokenKind::error, "write print(\"x\", x)"},
       {"ifdef", TokenKind::error, "write if condition { … } else { … }"},
       {"ifndef", TokenKind::error, "write if condition { … } else { … }"},
       {"if", TokenKind::kw_if, "write if condition { … } else { … }"},

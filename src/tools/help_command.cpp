@@ -41,8 +41,10 @@ std::string entry(const ReferenceStatement& statement) {
 }
 
 std::string entry(const ReferenceFunction& function) {
-  return fmt::format("{}\n  gives: {}\n  {}\n  For example: {}\n", function.call, function.result,
-                     function.documentation, function.example);
+  const std::string picture = picture_of(function);
+  return fmt::format("{}\n  gives: {}\n  {}\n  For example: {}\n{}", function.call, function.result,
+                     function.documentation, function.example,
+                     picture.empty() ? "" : fmt::format("  It looks like this: {}\n", picture));
 }
 
 std::string entry(const ReferenceOutput& output, std::string_view body) {

@@ -101,6 +101,7 @@ class StatementList {
     if constexpr (std::is_same_v<T, scene::AreaLight>) {
       add_shape_lights(static_cast<const scene::LightShapes*>(nullptr));
       add<resolve::MeshLightParameters, scene::AreaLight, resolve::Placement>();
+      add<resolve::SkyLightParameters, resolve::Placement>();
     } else {
       add<T, resolve::Placement>();
     }

@@ -29,6 +29,9 @@ struct ReferenceFunction {
   std::string result, documentation, example;
 };
 const std::vector<ReferenceFunction>& reference_functions();
+// The path, below the program's own folder, of a small picture of what a function looks like, made by
+// scripts/pictures; empty where there is none.
+std::string picture_of(const ReferenceFunction& function);
 
 // What a body may set.
 struct ReferenceOutput {

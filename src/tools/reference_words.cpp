@@ -1,6 +1,9 @@
 // The words of the language that no table of the code explains.
 #include "tools/reference.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace tyndall::tools {
 
 namespace {
@@ -39,7 +42,20 @@ constexpr ReferenceWord words[] = {
      "base_color = picture(uv)"},
 };
 
+// Functions that are pictures.
+constexpr std::string_view pictured[] = {
+    "noise",     "fbm",    "turbulence", "ridged",       "cells",        "worley",          "curl",
+    "vnoise",    "warp",   "noise01",    "fbm01",        "turbulence01", "ridged01",        "checker",
+    "sd_sphere", "sd_box", "sd_torus",   "sd_capsule",   "sd_cylinder",  "sd_cone",         "sd_ellipsoid",
+    "sd_plane",  "sky",    "hsv",        "smooth_union", "smooth_max",   "smooth_subtract", "blackbody"};
+
 }  // namespace
+
+std::string picture_of(const ReferenceFunction& function) {
+  return std::find(std::begin(pictured), std::end(pictured), function.name) == std::end(pictured)
+             ? std::string{}
+             : "docs/images/built-ins/" + function.name + ".png";
+}
 
 std::span<const ReferenceWord> reference_words() { return words; }
 

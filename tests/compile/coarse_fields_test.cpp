@@ -24,6 +24,12 @@ const std::pair<const char*, const char*> fields[] = {
     {"cells", "cells($PLACE, time: time)"},
     {"curl", "curl($PLACE).y"},
     {"curl", "curl($PLACE, time: time).x"},
+    {"worley", "worley($PLACE).x"},
+    {"worley", "worley($PLACE).y"},
+    {"worley", "worley($PLACE).z"},
+    {"worley", "worley($PLACE, time: time).x"},
+    {"worley", "worley($PLACE, time: time).y"},
+    {"worley", "worley($PLACE, time: time).z"},
     {"checker", "(if checker(($PLACE).xy) then 1 else 0)"},
 };
 
@@ -31,7 +37,7 @@ TEST(CoarseFields, EveryMemberOfTheFamilyIsTold) {
   std::size_t ops = 0;
   for (int op = 0; op < vm::op_count; ++op)
     ops += vm::op_info(static_cast<vm::Op>(op)).has(vm::OpTrait::lattice);
-  EXPECT_EQ(ops, 17u) << "a new member wants a row above";
+  EXPECT_EQ(ops, 23u) << "a new member wants a row above";
   for (const auto& [name, text] : fields)
     for (const bool material : {false, true})
       for (const auto& [place, coarse] :

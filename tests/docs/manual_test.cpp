@@ -17,7 +17,8 @@
 namespace tyndall::docs {
 namespace UNNAMED {
 
-const std::filesystem::path manual = root / "docs/language.md";
+namespace fs = std::filesystem;
+const fs::path manual = root / "docs/language.md";
 
 // `|` ends a cell of a table.
 std::string cell(std::string_view text) {
@@ -47,9 +48,12 @@ std::string statements() {
 
 std::string builtins() {
   std::string text = "\n| function | gives | |\n| --- | --- | --- |\n";
-  for (const tools::ReferenceFunction& f : tools::reference_functions())
-    text += fmt::format("| {} | {} | {} E.g. {} |\n", in_code(f.call), cell(f.result), cell(f.documentation),
-                        in_code(f.example));
+  for (const tools::ReferenceFunction& f : tools::reference_functions()) {
+    std::string picture = tools::picture_of(f);
+    if (!picture.empty()) picture = fmt::format(" ![{}]({})", f.name, picture.substr(5));  // from docs/
+    text += fmt::format("| {} | {} | {} E.g. {}{} |\n", in_code(f.call), cell(f.result),
+                        cell(f.documentation), in_code(f.example), picture);
+  }
   return text + "\n";
 }
 
@@ -74,6 +78,14 @@ TEST(Manual, TablesAreCurrent) {
   expect_part(manual, "builtins", builtins());
   expect_part(manual, "media", outputs(tools::reference_medium_outputs()));
   expect_part(manual, "materials", outputs(tools::reference_material_outputs()));
+}
+
+TEST(Manual, FunctionsThatArePicturesHaveOne) {
+  std::set<fs::path> named, made;
+  for (const tools::ReferenceFunction& f : tools::reference_functions())
+    if (const std::string picture = tools::picture_of(f); !picture.empty()) named.insert(root / picture);
+  for (const auto& entry : fs::directory_iterator(root / "docs/images/built-ins")) made.insert(entry.path());
+  EXPECT_EQ(named, made) << "scripts/pictures makes them";
 }
 
 TEST(Manual, TheCheatSheetIsCurrent) { expect_file(root / "docs/cheat-sheet.md", tools::cheat_sheet()); }

@@ -27,14 +27,18 @@ std::uint32_t lines_of(const Source& s) { return s.locate(static_cast<std::uint3
 void read_expectations(const Source& source, std::uint32_t line, std::vector<Expectation>& expectations) {
   std::string_view rest = source.line(line);
   while (true) {
-    const std::size_t error = rest.find("// error: "), warning = rest.find("// warning: ");
-    const std::size_t at = std::min(error, warning);
+    const std::size_t error = rest.find("// error: "), warning = rest.find("// warning: "),
+                      note = rest.find("// note: ");
+    const std::size_t at = std::min({error, warning, note});
     if (at == std::string_view::npos) return;
     rest = rest.substr(rest.find(": ", at) + 2);
     std::string_view fragments = rest.substr(0, rest.find(" // "));
     while (fragments.ends_with(' ')) fragments.remove_suffix(1);
-    expectations.push_back(
-        {source.name(), line, error < warning ? Severity::error : Severity::warning, std::string(fragments)});
+    expectations.push_back({source.name(), line,
+                            at == error     ? Severity::error
+                            : at == warning ? Severity::warning
+                                            : Severity::note,
+                            std::string(fragments)});
   }
 }
 
@@ -106,5 +110,5 @@ TEST(Cases, AreMany) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Language, testing::ValuesIn(case_files()),
                          [](const auto& scene) { return fs::path(scene.param).stem().string(); });
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall

@@ -112,6 +112,46 @@ TEST(Fields, CellsAreContinuous) {
   }
 }
 
+// The nearest distance is that of cells; both distances change by at most the step; the number changes only
+// where the two distances are equal, and is uniform over cells.
+TEST(Fields, WorleyKnowsTheTwoNearestAndTheirNumber) {
+  const auto points = random_points(100000, 50, 24);
+  auto moved = points;
+  const float step = 1.0f / 1024, allowed = 1.05f * step;
+  for (std::size_t i = 0; i < points.size(); ++i) moved[i][i % 3] += step;
+  const std::tuple<Op, Op, Op, Op, float> rows[] = {
+      {Op::worley3_first, Op::worley3_second, Op::worley3_id, Op::cells3, 0.52036f},
+      {Op::worley4_first, Op::worley4_second, Op::worley4_id, Op::cells4, 0.59002f}};
+  for (const auto& [first, second, id, cells, mean] : rows) {
+    const std::vector<float> a = Field(first).at(points), b = Field(second).at(points);
+    const std::vector<float> n = Field(id).at(points), scaled = Field(cells).at(points);
+    const std::vector<float> a_moved = Field(first).at(moved), b_moved = Field(second).at(moved),
+                             n_moved = Field(id).at(moved);
+    std::array<double, 16> bins{};
+    std::size_t changes = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      ASSERT_NEAR(a[i], (scaled[i] + 1) * mean, 1e-6f);
+      ASSERT_LE(a[i], b[i]);
+      ASSERT_LE(b[i], 1);
+      ASSERT_LE(std::fabs(a_moved[i] - a[i]), allowed);
+      ASSERT_LE(std::fabs(b_moved[i] - b[i]), allowed);
+      if (n[i] != n_moved[i]) {
+        ASSERT_LE(b[i] - a[i], 2 * allowed);
+        ++changes;
+      }
+      ASSERT_GE(n[i], 0);
+      ASSERT_LT(n[i], 1);
+      ++bins[static_cast<std::size_t>(n[i] * 16)];
+    }
+    EXPECT_GT(changes, 10u);
+    // In a box of side 100 a cell is hit at most a few times: nearly independent. 15 degrees of freedom.
+    const double mean_count = static_cast<double>(points.size()) / 16;
+    double chi = 0;
+    for (const double count : bins) chi += (count - mean_count) * (count - mean_count) / mean_count;
+    EXPECT_LT(chi, 60) << op_info(id).name;
+  }
+}
+
 TEST(Fields, LatticeValuesAreUncorrelated) {
   // Between neighbours along each axis and diagonal, and between seeds, the noise at cell centres correlates
   // only as far as it shares corners: a cell two away shares none. Five standard errors.
@@ -246,5 +286,5 @@ TEST(Blackbody, HasLuminanceOneAndTurnsFromRedToBlue) {
   EXPECT_TRUE(std::isnan(color(std::nanf(""))[0]));
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::vm

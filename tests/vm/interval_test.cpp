@@ -126,6 +126,9 @@ TEST(Intervals, AreTightInSmallBoxes) {
       {Op::noise3, {around(0.3f, 0.01f), around(0.6f, 0.01f), around(4.2f, 0.01f)}, 0.09f},
       {Op::fbm3, {around(0.3f, 0.01f), around(0.6f, 0.01f), around(4.2f, 0.01f)}, 0.35f},
       {Op::cells3, {around(0.3f, 0.01f), around(0.6f, 0.01f), around(4.2f, 0.01f)}, 0.07f},
+      {Op::worley3_first, {around(0.3f, 0.01f), around(0.6f, 0.01f), around(4.2f, 0.01f)}, 0.036f},
+      {Op::worley3_second, {around(0.3f, 0.01f), around(0.6f, 0.01f), around(4.2f, 0.01f)}, 0.036f},
+      {Op::worley3_id, {around(0.3f, 0.01f), around(0.6f, 0.01f), around(4.2f, 0.01f)}, 0},
       {Op::select, {at(1), around(2, 0.5f), at(9)}, 1},
       {Op::step, {at(0.5f), around(0.7f, 0.1f)}, 0},
   };
@@ -258,5 +261,5 @@ TEST(Intervals, ABoxDoesNotDependOnItsPlaceInTheBatch) {
   }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::vm

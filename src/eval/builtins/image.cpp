@@ -45,6 +45,15 @@ Value image(CallSite& site) {
 
 }  // namespace
 
+Scalar texel_at(Evaluator& ev, const PlanePointer& plane, const Scalar& u, const Scalar& v, Span span) {
+  if (u.known() && v.known()) {
+    const std::array<float, 2> place{static_cast<float>(u.value), static_cast<float>(v.value)};
+    return Scalar{vm::evaluate_lane(vm::Op::plane, place, 0, 0, {.planes = {plane}, .voxels = {}})};
+  }
+  vm::Builder& builder = *ev.builder();
+  return Scalar{0, builder.emit(vm::Op::plane, {ev.node(u), ev.node(v)}, span, 0, builder.plane(plane))};
+}
+
 Value look_up(Evaluator& ev, const Image& image, const syntax::SyntaxTree& tree, const syntax::CallExpr& call,
               std::string_view name, Span span, const std::shared_ptr<Scope>& scope) {
   const auto arguments = tree.list_of_arguments(call.arguments);
@@ -58,19 +67,9 @@ Value look_up(Evaluator& ev, const Image& image, const syntax::SyntaxTree& tree,
   const std::vector<PlanePointer> planes = ev.context().images->planes(image);
   if (planes.empty()) return {};
   Value result = Value::of(planes.size() == 1 ? Type::number : Type::vec, {});
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    Scalar& s = result.scalars[i];
-    if (uv.known()) {
-      const std::array<float, 2> place{static_cast<float>(uv.scalars[0].value),
-                                       static_cast<float>(uv.scalars[1].value)};
-      s = Scalar{vm::evaluate_lane(vm::Op::plane, place, 0, 0, {.planes = {planes[i]}, .voxels = {}})};
-    } else {
-      vm::Builder& builder = *ev.builder();
-      s = Scalar{0, builder.emit(vm::Op::plane, {ev.node(uv.scalars[0]), ev.node(uv.scalars[1])}, span, 0,
-                                 builder.plane(planes[i]))};
-    }
-    s = product(ev, s, Scalar{image.factor[i]}, span);
-  }
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    result.scalars[i] = product(ev, texel_at(ev, planes[i], uv.scalars[0], uv.scalars[1], span),
+                                Scalar{image.factor[i]}, span);
   return result;
 }
 

@@ -1,8 +1,6 @@
 // Built-ins that the table describes wholly: an opcode and how arguments become its operands.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "eval/calls.h"
 #include "eval/operators.h"
 
@@ -22,58 +20,6 @@ Value wrong_argument(CallSite& site, std::size_t i, std::string_view wanted) {
   return site.ev.error(site.spans[i],
                        fmt::format("{} wants {}, found {}", site.what(i), wanted, describe(found)),
                        found == Type::angle ? "divide an angle by 1rad to get its number" : "");
-}
-
-// Reads options that settle the instruction itself, so they must be known. False after an error.
-bool read_whole(CallSite& site, std::string_view name, double lowest, double highest, double& value) {
-  const auto& parameters = site.entry.row->parameters;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (parameters[i].name != name || !site.given[i]) continue;
-    bool ok = true;
-    const Value given = site.as(Type::number, i, ok);
-    if (!ok) return false;
-    if (!given.known()) {
-      site.ev.error(site.spans[i], fmt::format("{} must be known when the scene is read", site.what(i)),
-                    "use a constant or a parameter");
-      return false;
-    }
-    value = given.as_number();
-    if (value != std::floor(value) || value < lowest || value > highest) {
-      site.ev.error(site.spans[i], fmt::format("{} wants a whole number in {}..{}, found {}", site.what(i),
-                                               lowest, highest, text_of(given)));
-      return false;
-    }
-  }
-  return true;
-}
-
-struct Field {
-  std::vector<Scalar> operands;
-  std::uint8_t octaves = 0;
-  std::uint32_t seed = 0;
-};
-
-// Reads a point, an optional time and options; nothing after an error.
-std::optional<Field> read_field(CallSite& site) {
-  Field field;
-  bool ok = true;
-  const Value point = site.as(Type::vec, 0, ok);
-  if (!ok) return std::nullopt;
-  field.operands.assign(point.scalars.begin(), point.scalars.end());
-  double octaves = 0, seed = 0;
-  const auto& parameters = site.entry.row->parameters;
-  for (std::size_t i = 1; i < parameters.size(); ++i) {
-    if (parameters[i].name == "octaves")
-      octaves = std::strtod(std::string(parameters[i].default_value).c_str(), nullptr);
-    if (parameters[i].name == "octaves" || parameters[i].name == "seed" || !site.given[i]) continue;
-    field.operands.push_back(site.as(Type::number, i, ok).scalars[0]);
-  }
-  if (!ok || !read_whole(site, "octaves", 1, max_octaves, octaves) ||
-      !read_whole(site, "seed", 0, 4294967295.0, seed))
-    return std::nullopt;
-  field.octaves = static_cast<std::uint8_t>(octaves);
-  field.seed = static_cast<std::uint32_t>(seed);
-  return field;
 }
 
 // sin(30): as for rotate_y(30), nothing says whether degrees are meant. What is computed, sin(2 * pi * x), is
@@ -159,24 +105,6 @@ Value call_length(CallSite& site) {
     return Value::of(Type::number,
                      {site.ev.emit(Op::length3, {v.scalars[0], v.scalars[1], v.scalars[2]}, site.span)});
   return wrong_argument(site, 0, "a pair, a vec or a list");
-}
-
-Value call_field(CallSite& site) {
-  const std::optional<Field> field = read_field(site);
-  if (!field) return {};
-  const Op op = site.entry.row->ops[field->operands.size() == 4 ? 1 : 0];
-  return Value::of(Type::number, {site.ev.emit(op, field->operands, site.span, field->octaves, field->seed)});
-}
-
-Value call_vector_field(CallSite& site) {
-  const std::optional<Field> field = read_field(site);
-  if (!field) return {};
-  Value result = Value::of(Type::vec, {});
-  const std::size_t first = field->operands.size() == 4 ? 3 : 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    result.scalars[i] =
-        site.ev.emit(site.entry.row->ops[first + i], field->operands, site.span, field->octaves, field->seed);
-  return result;
 }
 
 }  // namespace tyndall::eval

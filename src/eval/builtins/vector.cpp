@@ -1,9 +1,10 @@
-// Built-ins on vecs, distances to solids, and others that are made of several operations.
+// Built-ins on vecs and others that are made of several operations.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "eval/calls.h"
+#include "base/numerics.h"
+#include "eval/builtins/maker.h"
 #include "eval/operators.h"
 
 namespace tyndall::eval {
@@ -11,46 +12,6 @@ namespace tyndall::eval {
 using vm::Op;
 
 namespace {
-
-// Short names for the operations that these built-ins are made of.
-struct Maker {
-  Evaluator& ev;
-  Span span;
-
-  Scalar op(Op o, std::initializer_list<Scalar> operands) const { return ev.emit(o, operands, span); }
-  Scalar add(const Scalar& a, const Scalar& b) const { return op(Op::add, {a, b}); }
-  Scalar sub(const Scalar& a, const Scalar& b) const { return op(Op::sub, {a, b}); }
-  Scalar mul(const Scalar& a, const Scalar& b) const { return op(Op::mul, {a, b}); }
-  Scalar div(const Scalar& a, const Scalar& b) const { return op(Op::div, {a, b}); }
-  Scalar min(const Scalar& a, const Scalar& b) const { return op(Op::min, {a, b}); }
-  Scalar max(const Scalar& a, const Scalar& b) const { return op(Op::max, {a, b}); }
-
-  Scalar dot(const Value& a, const Value& b) const {
-    Scalar result = mul(a.scalars[0], b.scalars[0]);
-    for (std::size_t i = 1; i < static_cast<std::size_t>(a.width()); ++i)
-      result = add(result, mul(a.scalars[i], b.scalars[i]));
-    return result;
-  }
-  Value subtract(const Value& a, const Value& b) const {
-    Value result = a;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(a.width()); ++i)
-      result.scalars[i] = sub(a.scalars[i], b.scalars[i]);
-    return result;
-  }
-  Value scaled(const Value& v, const Scalar& s) const {
-    Value result = v;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(v.width()); ++i)
-      result.scalars[i] = mul(v.scalars[i], s);
-    return result;
-  }
-  Scalar length(const Value& v) const {
-    if (v.type == Type::pair) return op(Op::length2, {v.scalars[0], v.scalars[1]});
-    return op(Op::length3, {v.scalars[0], v.scalars[1], v.scalars[2]});
-  }
-};
-
-Value number(const Scalar& s) { return Value::of(Type::number, {s}); }
-Maker maker(CallSite& site) { return {site.ev, site.span}; }
 
 // Both arguments as pairs, or both as vecs.
 bool same_width(CallSite& site) {
@@ -159,6 +120,32 @@ Value blackbody(CallSite& site) {
                    {m.op(Op::blackbody_r, {k}), m.op(Op::blackbody_g, {k}), m.op(Op::blackbody_b, {k})});
 }
 
+// The linear colour of a component of sRGB (IEC 61966-2-1).
+Scalar linear_of_srgb(const Maker& m, const Scalar& c) {
+  const Scalar curve = m.op(Op::pow, {m.div(m.add(c, Scalar{0.055}), Scalar{1.055}), Scalar{2.4}});
+  return m.op(Op::select, {m.op(Op::less_equal, {c, Scalar{0.04045}}), m.div(c, Scalar{12.92}), curve});
+}
+
+// As colour pickers have it: of sRGB. A channel is full within 60 degrees of its own hue, and falls to
+// value (1 - saturation) over the next 60.
+Value hsv(CallSite& site) {
+  bool ok = true;
+  const Scalar hue = site.as(Type::angle, 0, ok).scalars[0],
+               saturation = site.as(Type::number, 1, ok).scalars[0],
+               given = site.as(Type::number, 2, ok).scalars[0];
+  if (!ok) return {};
+  const Maker m = maker(site);
+  const Scalar sixths = m.mul(hue, Scalar{3 / pi}), zero{0}, one{1};
+  const Scalar value = m.max(given, zero), depth = m.mul(value, m.op(Op::saturate, {saturation}));
+  Value result = Value::of(Type::vec, {});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Scalar k = m.op(Op::mod, {m.add(sixths, Scalar{5.0 - 2.0 * static_cast<double>(i)}), Scalar{6}});
+    const Scalar part = m.max(zero, m.min(m.min(k, m.sub(Scalar{4}, k)), one));
+    result.scalars[i] = linear_of_srgb(m, m.sub(value, m.mul(depth, part)));
+  }
+  return result;
+}
+
 Value checker(CallSite& site) {
   bool ok = true;
   const Value p = site.as(Type::pair, 0, ok);
@@ -196,87 +183,13 @@ Value random(CallSite& site) {
   return number(operands[0]);
 }
 
-// Distances to solids, negative inside. After Inigo Quilez, "Distance functions" (iquilezles.org).
-Value sd_sphere(CallSite& site) {
-  bool ok = true;
-  const Value p = site.as(Type::vec, 0, ok), radius = site.as(Type::number, 1, ok);
-  const Maker m = maker(site);
-  return ok ? number(m.sub(m.length(p), radius.scalars[0])) : Value{};
-}
-
-Value sd_box(CallSite& site) {
-  bool ok = true;
-  const Value p = site.as(Type::vec, 0, ok), half = site.as(Type::vec, 1, ok, true);
-  if (!ok) return {};
-  const Maker m = maker(site);
-  Value outside = p;
-  std::array<Scalar, 3> q;
-  for (std::size_t i = 0; i < 3; ++i) {
-    q[i] = m.sub(m.op(Op::abs, {p.scalars[i]}), half.scalars[i]);
-    outside.scalars[i] = m.max(q[i], Scalar{0});
-  }
-  return number(m.add(m.length(outside), m.min(m.max(q[0], m.max(q[1], q[2])), Scalar{0})));
-}
-
-// Around the y axis: `ring` from the axis to the middle of the tube, `tube` the radius of the tube.
-Value sd_torus(CallSite& site) {
-  bool ok = true;
-  const Value p = site.as(Type::vec, 0, ok), ring = site.as(Type::number, 1, ok),
-              tube = site.as(Type::number, 2, ok);
-  if (!ok) return {};
-  const Maker m = maker(site);
-  const Scalar q = m.sub(m.op(Op::length2, {p.scalars[0], p.scalars[2]}), ring.scalars[0]);
-  return number(m.sub(m.op(Op::length2, {q, p.scalars[1]}), tube.scalars[0]));
-}
-
-Value sd_capsule(CallSite& site) {
-  bool ok = true;
-  const Value p = site.as(Type::vec, 0, ok), a = site.as(Type::vec, 1, ok), b = site.as(Type::vec, 2, ok);
-  const Value radius = site.as(Type::number, 3, ok);
-  if (!ok) return {};
-  const Maker m = maker(site);
-  const Value pa = m.subtract(p, a), ba = m.subtract(b, a);
-  const Scalar length_squared = m.dot(ba, ba);
-  Scalar h{0};  // a capsule of no length is a sphere
-  if (!length_squared.known() || length_squared.value > 0)
-    h = m.op(Op::clamp, {m.div(m.dot(pa, ba), length_squared), Scalar{0}, Scalar{1}});
-  return number(m.sub(m.length(m.subtract(pa, m.scaled(ba, h))), radius.scalars[0]));
-}
-
-// The lesser of a and b with the edge rounded over a width k > 0: min - max(k - |a - b|, 0)^2 / (4 k).
-Value smooth_union(CallSite& site) {
-  bool ok = true;
-  const Scalar a = site.as(Type::number, 0, ok).scalars[0], b = site.as(Type::number, 1, ok).scalars[0];
-  const Value k = site.as(Type::number, 2, ok);
-  if (!ok) return {};
-  const Maker m = maker(site);
-  const Scalar least = m.min(a, b);
-  if (k.known() && k.as_number() < 0)
-    return site.ev.error(site.spans[2], fmt::format("{} must not be negative", site.what(2)));
-  if (k.known() && k.as_number() == 0) return number(least);
-  const Scalar h = m.max(m.sub(k.scalars[0], m.op(Op::abs, {m.sub(a, b)})), Scalar{0});
-  return number(m.sub(least, m.div(m.mul(h, h), m.mul(Scalar{4}, k.scalars[0]))));
-}
-
 }  // namespace
 
 Handlers vector_handler(std::string_view name) {
   static constexpr std::pair<std::string_view, Value (*)(CallSite&)> handlers[] = {
-      {"dot", dot},
-      {"distance", distance},
-      {"cross", cross},
-      {"normalize", normalize},
-      {"reflect", reflect},
-      {"remap", remap},
-      {"luminance", luminance},
-      {"blackbody", blackbody},
-      {"checker", checker},
-      {"length", call_length},
-      {"sd_sphere", sd_sphere},
-      {"sd_box", sd_box},
-      {"sd_torus", sd_torus},
-      {"sd_capsule", sd_capsule},
-      {"smooth_union", smooth_union}};
+      {"dot", dot},         {"distance", distance}, {"cross", cross},         {"normalize", normalize},
+      {"reflect", reflect}, {"remap", remap},       {"luminance", luminance}, {"blackbody", blackbody},
+      {"hsv", hsv},         {"checker", checker},   {"length", call_length}};
   if (name == "random") return {nullptr, random};
   for (const auto& [word, handler] : handlers)
     if (word == name) return {handler};

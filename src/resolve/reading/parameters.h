@@ -2,15 +2,19 @@
 // structs.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/fields.h"
 #include "base/numerics.h"
+#include "base/problem.h"
 #include "base/transform.h"
 #include "base/vec.h"
 #include "eval/value.h"
+#include "optics/atmosphere.h"
 #include "scene/scene.h"
 
 namespace tyndall::resolve {
@@ -103,6 +107,31 @@ struct CurvesParameters {
           FieldInfo{"radius",
                     "of the tube, >= 0 [m]; or a list: [root, tip], or one for each point of a strand",
                     Quantity::length, required});
+  }
+};
+
+// `light sky`: becomes an environment and a distant light.
+struct SkyLightParameters {
+  static constexpr std::string_view keyword = "light sky";
+  Vec3d sun;
+  double turbidity = optics::usual_turbidity;
+  template <class F>
+  static void fields(F&& field) {
+    using P = SkyLightParameters;
+    field(&P::sun, FieldInfo{"sun", "the direction towards the sun", Quantity::direction, required});
+    field(&P::turbidity, FieldInfo{"turbidity",
+                                   "how hazy it is, 1 to 10: 2 is a very clear day, 3 a clear one, 6 a hazy "
+                                   "one"});
+  }
+
+  Problems validate() const {
+    Problems problems;
+    want_direction(problems, "sun", sun);
+    if (!(turbidity >= optics::least_turbidity && turbidity <= optics::most_turbidity))
+      problems.push_back(
+          {"turbidity", fmt::format("'turbidity' must be from {} to {}, found {}", optics::least_turbidity,
+                                    optics::most_turbidity, turbidity)});
+    return problems;
   }
 };
 

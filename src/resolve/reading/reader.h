@@ -50,10 +50,10 @@ struct WithAlternatives<SchemasOf<T...>, std::variant<U...>> {
 };
 using SchemasBesideFamilies =
     SchemasOf<scene::RenderSettings, AnimationParameters, MeshParameters, CurvesParameters,
-              MeshLightParameters, ShapePlacement, Placement, VolumeParameters, GroupParameters,
-              PlaceParameters, GltfParameters, GltfShapeParameters, GltfCameraParameters, MeshFileParameters,
-              MeshFileShapeParameters, scene::PerspectiveCamera, scene::OrthographicCamera,
-              scene::SphericalCamera>;
+              MeshLightParameters, SkyLightParameters, ShapePlacement, Placement, VolumeParameters,
+              GroupParameters, PlaceParameters, GltfParameters, GltfShapeParameters, GltfCameraParameters,
+              MeshFileParameters, MeshFileShapeParameters, scene::PerspectiveCamera,
+              scene::OrthographicCamera, scene::SphericalCamera>;
 using SchemasOfShapes = WithAlternatives<SchemasBesideFamilies, scene::Shape>::Type;
 using Schemas =
     WithAlternatives<WithAlternatives<SchemasOfShapes, scene::Light>::Type, scene::LightShapes>::AsLights;

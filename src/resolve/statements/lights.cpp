@@ -1,6 +1,7 @@
 // Light statements.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <type_traits>
 
 #include "resolve/resolve_context.h"
@@ -70,6 +71,30 @@ void run_mesh_light(Run& run, const Site& site, const syntax::ThingItem& thing, 
             site.world_from_local * placement.transform * in->outer_from_shape);
 }
 
+// The sky as an environment, and the sun's disc as a distant light while any of it is above the horizon.
+void run_sky_light(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
+  Reader reader(run.evaluator, run.schemas, {site.tree, &site.scope, &run.statements}, thing.block, row.name,
+                header(thing));
+  const auto given = reader.read<SkyLightParameters>();
+  const auto placement = reader.read<Placement>();
+  reader.finish();
+  if (reader.ok()) reader.report(given.validate());
+  if (!reader.ok() || !run.may_add_lights(2, header(thing))) return;
+  const Vec3d sun = normalize(given.sun);
+  const auto daylight = optics::daylight(std::clamp(sun.y, -1.0, 1.0), given.turbidity);
+  const Transform world_from_light = site.world_from_local * placement.transform;
+  scene::EnvironmentLight sky;
+  sky.radiance = {Rgb(Vec3d{1, 1, 1}), daylight->picture};
+  sky.rotation = {optics::azimuth_of_sun(sun)};
+  add_light(run, {sky, {}, header(thing), row.name}, world_from_light);
+  if (std::max({daylight->sun.x, daylight->sun.y, daylight->sun.z}) == 0) return;
+  scene::DistantLight disc;
+  disc.direction = -sun;
+  disc.irradiance = daylight->sun;
+  disc.angle = {2 * optics::sun_angular_radius};
+  add_light(run, {disc, {}, header(thing), row.name}, world_from_light);
+}
+
 template <class... S>
 void add_shape_lights(std::vector<Statement>& rows, const std::variant<S...>*) {
   (rows.push_back({scene::light_keyword<S>,
@@ -87,6 +112,13 @@ void add_rows(std::vector<Statement>& rows) {
   if constexpr (std::is_same_v<Light, scene::AreaLight>) {
     add_shape_lights(rows, static_cast<const scene::LightShapes*>(nullptr));
     rows.push_back({scene::AreaLight::mesh_keyword, {}, {}, run_mesh_light});
+    rows.push_back({SkyLightParameters::keyword,
+                    {},
+                    {},
+                    run_sky_light,
+                    nullptr,
+                    false,
+                    list_names<SkyLightParameters, Placement>});
   } else {
     rows.push_back({Light::keyword, {}, {}, run_light<Light>, nullptr, false, list_names<Light, Placement>});
   }

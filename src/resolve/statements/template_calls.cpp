@@ -1,6 +1,7 @@
 // Templates called as statements.
 #include <fmt/format.h>
 
+#include "eval/printing.h"
 #include "resolve/expansion_notes.h"
 #include "resolve/foreseen_rounds.h"
 #include "resolve/resolve_context.h"
@@ -46,6 +47,7 @@ void run_call(Run& run, const Site& site, const syntax::CallItem& item) {
   const syntax::Expr& expr = (*site.tree)[item.call];
   const auto* call = std::get_if<syntax::CallExpr>(&expr.node);
   if (!call) return;  // an expression that could not be read
+  if (eval::ran_print(run.evaluator, *site.tree, item, site.scope)) return;
   const eval::Value callee = callee_of(run, site, call->callee);
   if (callee.is_error()) return;
   const Span callee_span = (*site.tree)[call->callee].span;

@@ -4,31 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/vec.h"
+#include "base/observer.h"
 
 namespace tyndall::vm {
 
 namespace {
-
-// A Gaussian with different widths on its two sides.
-double lobe(double x, double height, double center, double inverse_left, double inverse_right) {
-  const double t = (x - center) * (x < center ? inverse_left : inverse_right);
-  return height * std::exp(-0.5 * t * t);
-}
-
-// Colour matching functions. Wyman, Sloan, Shirley, "Simple Analytic Approximations to the CIE XYZ Color
-// Matching Functions", JCGT 2013, the multi-lobe fits.
-Vec3d observer(double nanometres) {
-  return {
-      lobe(nanometres, 1.056, 599.8, 1 / 37.9, 1 / 31.0) +
-          lobe(nanometres, 0.362, 442.0, 1 / 16.0, 1 / 26.7) +
-          lobe(nanometres, -0.065, 501.1, 1 / 20.4, 1 / 26.2),
-      lobe(nanometres, 0.821, 568.8, 1 / 46.9, 1 / 40.5) + lobe(nanometres, 0.286, 530.9, 1 / 16.3, 1 / 31.1),
-      lobe(nanometres, 1.217, 437.0, 1 / 11.8, 1 / 36.0) +
-          lobe(nanometres, 0.681, 459.0, 1 / 26.0, 1 / 13.8)};
-}
-
-constexpr int shortest_nm = 360, longest_nm = 830;
 
 // The observer over l^5 (Planck's law has it), for every whole nanometre.
 using ObserverTable = std::array<Vec3d, longest_nm - shortest_nm + 1>;
@@ -53,10 +33,8 @@ Vec3d color(double inverse_kelvin, const ObserverTable& weighted) {
     const double planck = exponent < 1e-9 ? nm / 600.0 : scale / std::expm1(exponent);
     xyz += weighted[static_cast<std::size_t>(nm - shortest_nm)] * planck;
   }
-  // Rec. 709 primaries, white D65 (IEC 61966-2-1).
-  const Vec3d rgb = {std::max(0.0, 3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z),
-                     std::max(0.0, -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z),
-                     std::max(0.0, 0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z)};
+  const Vec3d signed_rgb = rec709_of_xyz(xyz);
+  const Vec3d rgb{std::max(0.0, signed_rgb.x), std::max(0.0, signed_rgb.y), std::max(0.0, signed_rgb.z)};
   return rgb / dot(rgb, Vec3d(0.2126, 0.7152, 0.0722));
 }
 

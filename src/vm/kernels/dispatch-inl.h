@@ -14,6 +14,7 @@
 #include "vm/kernels/planes-inl.h"
 #include "vm/kernels/trigonometric-inl.h"
 #include "vm/kernels/voxels-inl.h"
+#include "vm/kernels/worley-inl.h"
 #include "vm/program/op.h"
 
 HWY_BEFORE_NAMESPACE();

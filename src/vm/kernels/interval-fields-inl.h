@@ -244,30 +244,40 @@ TYNDALL_VM_BOUND4(ridged4) {
                   1 / mean_ridge4);
 }
 
-// A distance changes by at most as much as the place: the one at the middle, and the box's half diagonal.
+// A distance changes by at most as much as the place: how far those in a box are from the one at its middle.
 template <class V>
-TYNDALL_VM_INLINE Bound<V> distance_over_box(V at_middle, V diagonal, V size, float mean, MaskOf<V> nan) {
-  const V middle = at_middle * V(mean) + V(mean);  // undoes op_cells' scaling
-  const V half = diagonal * V(1.0f + kernel_error) + V(noise_rounding) + size * V(0x1p-21f);
-  const auto known = both(half < V(1.0f), size < V(lattice_limit));
+TYNDALL_VM_INLINE V reach_of_box(V half_diagonal, V size) {
+  return half_diagonal * V(1.0f + kernel_error) + V(noise_rounding) + size * V(0x1p-21f);
+}
+// A distance of at most 1; `exact`: whether the lattice is, in the box.
+template <class V>
+TYNDALL_VM_INLINE Bound<V> distance_over_box(V middle, V half, MaskOf<V> exact, MaskOf<V> nan) {
+  const auto known = both(half < V(1.0f), exact);
   const V lo = select(known, greater(V(0.0f), middle - half), V(0.0f));
   const V hi = select(known, lesser(V(1.0f), middle + half), V(1.0f));
-  return centered(Bound<V>{lo, hi, nan}, mean, 1 / mean);
+  return {lo, hi, nan};
+}
+// Of cells, from their scaled value at the middle.
+template <class V>
+TYNDALL_VM_INLINE Bound<V> cells_over_box(V at_middle, V half_diagonal, V size, float mean, MaskOf<V> nan) {
+  const V middle = at_middle * V(mean) + V(mean);  // undoes op_cells' scaling
+  return centered(distance_over_box(middle, reach_of_box(half_diagonal, size), size < V(lattice_limit), nan),
+                  mean, 1 / mean);
 }
 TYNDALL_VM_BOUND3(cells3) {
   const Ball<V> x = ball_of(a), y = ball_of(b), z = ball_of(c);
   const V size = greater(greater(largest_size(a), largest_size(b)), largest_size(c));
-  return distance_over_box(op_cells3(options, x.center, y.center, z.center),
-                           op_length3(options, x.radius, y.radius, z.radius), size, mean_distance3,
-                           may_be_nan(TYNDALL_VM_SPACE));
+  return cells_over_box(op_cells3(options, x.center, y.center, z.center),
+                        op_length3(options, x.radius, y.radius, z.radius), size, mean_distance3,
+                        may_be_nan(TYNDALL_VM_SPACE));
 }
 TYNDALL_VM_BOUND4(cells4) {
   const Ball<V> x = ball_of(a), y = ball_of(b), z = ball_of(c), t = ball_of(d);
   const V size =
       greater(greater(largest_size(a), largest_size(b)), greater(largest_size(c), largest_size(d)));
-  return distance_over_box(op_cells4(options, x.center, y.center, z.center, t.center),
-                           op_length2(options, op_length3(options, x.radius, y.radius, z.radius), t.radius),
-                           size, mean_distance4, may_be_nan(TYNDALL_VM_SPACE_AND_TIME));
+  return cells_over_box(op_cells4(options, x.center, y.center, z.center, t.center),
+                        op_length2(options, op_length3(options, x.radius, y.radius, z.radius), t.radius),
+                        size, mean_distance4, may_be_nan(TYNDALL_VM_SPACE_AND_TIME));
 }
 
 // A component of curl is the difference of two slopes: each changes by at most one row of curvatures times

@@ -49,6 +49,8 @@ std::vector<Builtin> make_rows() {
   std::vector<Builtin> rows = {
 #define TYNDALL_BUILTIN(...) __VA_ARGS__,
 #include "vm/program/operations.inc"
+#define TYNDALL_BUILTIN(...) __VA_ARGS__,
+#include "vm/program/functions.inc"
   };
   std::sort(rows.begin(), rows.end(), [](const Builtin& a, const Builtin& b) { return a.name < b.name; });
   return rows;

@@ -1,6 +1,6 @@
 // The built-in functions: name, parameters, meaning, documentation, operation. The rows stand in
-// operations.inc. From a row come overloads, "did you mean", folding, listings, the manual's entry, editor
-// completion and the tests at awkward arguments.
+// operations.inc and functions.inc. From a row come overloads, "did you mean", folding, listings, the
+// manual's entry, editor completion and the tests at awkward arguments.
 #pragma once
 
 #include <cstdint>
