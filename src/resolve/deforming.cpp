@@ -150,6 +150,14 @@ bool deforms_only(Run& run, const SceneThen& then) {
   }
   for (std::size_t i = 0; i < first.strands.size() && alike; ++i)
     alike = strands_of(then.scene, now, i).begin == strands_of(run.scene, first, i).begin;
+  alike &= now.combinations.size() == first.combinations.size();
+  for (std::size_t i = 0; i < first.combinations.size() && alike; ++i) {
+    if (shapes::same(*first.combinations[i].parts, *now.combinations[i].parts)) continue;
+    run.diagnostics.error(first.combinations[i].header,
+                          "what is combined may not change while the shutter is open",
+                          "let the `transform` of the whole depend on `time`, or close the shutter");
+    return false;
+  }
   if (!alike) report_other_things(run);
   return alike;
 }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,11 @@ struct Written {
     scene::StrandSetId strands;
     Span points;
   };
+  struct CombinationAt {
+    std::shared_ptr<const shapes::CombinedParts> parts;
+    Span header;
+  };
+  std::vector<CombinationAt> combinations;
   std::vector<MeshAt> meshes;
   std::vector<StrandsAt> strands;
 };

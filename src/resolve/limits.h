@@ -18,6 +18,8 @@ inline constexpr std::uintmax_t max_file_bytes = std::uintmax_t{256} << 20;
 // Each stands in the scene by itself, wherever it comes from.
 inline constexpr int max_lights = 1'000'000, max_volumes = 1'000'000;
 inline constexpr std::size_t max_objects = 1'000'000;
+inline constexpr std::size_t max_combined_parts = 1000;  // of one combination, with all in it
+inline constexpr std::size_t max_combined_depth = 32;    // combinations within each other
 inline constexpr std::size_t max_curve_points = 10'000'000;
 
 struct Limit {

@@ -24,6 +24,7 @@
 #include "resolve/resolve.h"
 #include "resolve/statements/statements.h"
 #include "scene/scene.h"
+#include "shapes/combined_parts.h"
 #include "syntax/parser.h"
 
 namespace tyndall::resolve {
@@ -88,6 +89,14 @@ struct BuiltObject {
   double placed = 0;                   // objects in it, and volumes in those: what Run::may_place counts
   double volumes = 0;                  // in it and in those
   const eval::Scope* scope = nullptr;  // of its body, while it is run
+};
+
+// A combination while its braces are run.
+struct Combination {
+  std::string_view keyword;
+  std::vector<shapes::CombinedPart> parts{};
+  std::size_t count = 0;  // of them, those of its parts in place of these
+  bool complete = true;   // no part failed
 };
 
 // An object that is placed by its prototype from now on.
@@ -157,6 +166,7 @@ struct Run {
   Written written;
   BuiltObject* building =
       nullptr;  // takes the things of the object whose body is being run; null: the scene does
+  Combination* combining = nullptr;  // takes the shapes whose statements are run; null: the scene does
   std::unordered_map<const eval::Heavy*, KnownObject> objects;  // by their values' addresses
   // Of those with arguments, by their keys too: places in objects_of_arguments.
   std::map<std::pair<const eval::Heavy*, std::string>, std::size_t> argument_keys;

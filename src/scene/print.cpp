@@ -7,6 +7,7 @@
 
 #include "base/content_hash.h"
 #include "scene/scene.h"
+#include "shapes/combined_parts.h"
 
 namespace tyndall::scene {
 
@@ -187,13 +188,21 @@ const std::string& hash_of(const SharedMesh& mesh) {
   return known;
 }
 
-// The keyword of a variant's alternative on a line, and its fields.
+// The keyword of a variant's alternative on a line, and its fields; the parts of a combination, in braces.
 template <class Variant>
 void print_variant(Printer& p, const Variant& variant) {
   std::visit(
       [&](const auto& thing) {
         p.line(thing.keyword);
         p.fields(thing);
+        if constexpr (requires { thing.parts; }) {
+          p.line("{");
+          for (const CombinedPart& part : thing.parts->list) {
+            print_variant(p, part.shape);
+            if (part.placed) p.item("transform", part.placed->outer_from_part);
+          }
+          p.line("}");
+        }
       },
       variant);
 }

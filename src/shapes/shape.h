@@ -5,7 +5,7 @@
 //   closed                    whether it has an inside
 //   fields(f), validate()     its parameters, and what is wrong with them
 //   hit(origin, direction, t_min, t_max)   the first crossing in (t_min, t_max)
-//   inside(origin, direction) of closed ones: the interval of a line within, or an array of them
+//   inside(origin, direction) of closed ones: the interval of a line within, or a list of them
 //   depth(p)                  of closed ones: negative outside; inside no more than the way to the surface
 //   bounds()                  of those that end somewhere
 //   turned_bounds()           optional: whichever way the shape faces, where its numbers alone turn it. The
@@ -21,6 +21,7 @@
 #include <variant>
 
 #include "shapes/box.h"
+#include "shapes/combination.h"
 #include "shapes/cone.h"
 #include "shapes/curves.h"
 #include "shapes/cylinder.h"
@@ -33,7 +34,8 @@
 
 namespace tyndall::shapes {
 
-using Shape = std::variant<Sphere, Box, Plane, Quad, Disk, Cylinder, Cone, Torus, Mesh, Curves>;
+using Shape = std::variant<Sphere, Box, Plane, Quad, Disk, Cylinder, Cone, Torus, Difference, Intersection,
+                           Union, Mesh, Curves>;
 
 // Those that answer by themselves.
 template <class S>
@@ -63,6 +65,10 @@ void for_each_interval(const Intervald& interval, double t_max, Visit&& visit) {
 template <std::size_t N, class Visit>
 void for_each_interval(const std::array<Intervald, N>& intervals, double t_max, Visit&& visit) {
   for (const Intervald& interval : intervals) for_each_interval(interval, t_max, visit);
+}
+template <class Visit>
+void for_each_interval(const Stays& stays, double t_max, Visit&& visit) {
+  for (const Intervald& interval : stays) for_each_interval(interval, t_max, visit);
 }
 
 }  // namespace tyndall::shapes

@@ -10,9 +10,6 @@ namespace tyndall::syntax {
 
 namespace {
 
-constexpr std::string_view no_cutting =
-    "solids are not cut from each other: shapes stand side by side, or a medium's density is cut by a "
-    "function";
 constexpr std::string_view material = "write material: { base_color = … } in the shape";
 constexpr std::string_view look = "write camera perspective { from: … to: … fov: … }";
 constexpr std::string_view volume = "write volume { in: sphere { … } medium: { density = … albedo = … } }";
@@ -107,10 +104,9 @@ constexpr ForeignWord statements[] = {
     {"fire", volume},
     {"atmosphere", volume},
     // putting together
-    {"union", "write group { … }"},
-    {"merge", "write group { … }"},
-    {"difference", no_cutting},
-    {"intersection", no_cutting},
+    {"merge", "write union { … }"},
+    {"subtract", "write difference { … }: the first shape without the others"},
+    {"intersect", "write intersection { … }"},
     {"translate", transform},
     {"rotate", transform},
     {"scale", transform},

@@ -10,6 +10,7 @@
 
 #include "base/numerics.h"
 #include "compile/compiled_scene.h"
+#include "support/shape_cases.h"
 
 namespace tyndall::compile {
 namespace UNNAMED {
@@ -79,6 +80,15 @@ std::vector<NamedShape> shapes() {
        },
        // Its outer half.
        [](const SurfaceHit& hit) { return std::abs(hit.uv.y - 0.5) < 0.24; }},
+      {"turned box in a ball",
+       true,
+       {{0.5, 0, 0.1}, {-0.4, 0.3, 0}, {0, -0.4, -0.4}},
+       [](scene::Scene&, double r, const Vec3d& c) {
+         const scene::Box box{Vec3d(-0.8 * r), Vec3d(0.7 * r)};
+         return support::combined<scene::Intersection>(
+             {{scene::Sphere{c, r}, {}},
+              {box, Transform::translate(c) * Transform::rotate({1, 2, -1}, 0.7)}});
+       }},
       {"plane",
        false,
        {{-2, 0.6, 0}, {4, -0.6, 0}, {1.15, 0.36, 1.3}},
@@ -295,5 +305,5 @@ TEST(HitError, RaysThatLeaveAConvexShapeDoNotMeetItAgain) {
       }
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::compile

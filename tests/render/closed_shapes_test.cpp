@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 #include "support/measure.h"
 #include "support/scene_builder.h"
@@ -19,6 +22,17 @@ using support::measure;
 using support::SceneBuilder;
 
 constexpr double sigma = 0.7;
+
+// Of combinations one of each kind: they differ in their intervals alone, which tests/shapes has more of.
+template <class Visit>
+void for_kinds_of_closed_shapes(Visit&& visit) {
+  std::set<std::string_view> combined;
+  for_closed_shapes([&](const auto& s) {
+    if (!std::is_base_of_v<shapes::CombinedShape, std::decay_t<decltype(s)>> ||
+        combined.insert(s.keyword).second)
+      visit(s);
+  });
+}
 
 SceneBuilder looked_at_from_the_side() {
   SceneBuilder builder;
@@ -51,7 +65,7 @@ TEST(ClosedShapes, AbsorbAsTheirLengthsInside) {
   support::MediumColors black;
   black.sigma_t = Rgb(static_cast<float>(sigma));
   black.albedo = {};
-  for_closed_shapes([&](const auto& s) {
+  for_kinds_of_closed_shapes([&](const auto& s) {
     SceneBuilder builder = looked_at_from_the_side();
     builder.volume(s, builder.constant(black));
     expect_truth(measure(builder.scene).whole(), mean_transmittance(s), 5e-4, 0.01, std::string(s.keyword));
@@ -65,7 +79,7 @@ TEST(ClosedShapes, AreInvisibleInAWhiteRoom) {
   scene::ConstantSurface glass;
   glass.parameters.transmission = 1;
   glass.parameters.base_color = Rgb(1);
-  for_closed_shapes([&](const auto& s) {
+  for_kinds_of_closed_shapes([&](const auto& s) {
     SceneBuilder filled = looked_at_from_the_side(), clear = looked_at_from_the_side(),
                  both = looked_at_from_the_side();
     filled.volume(s, filled.constant(white));
@@ -77,5 +91,5 @@ TEST(ClosedShapes, AreInvisibleInAWhiteRoom) {
   });
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::render

@@ -31,6 +31,9 @@ const std::pair<std::string, std::string> shapes[] = {
     {"cone's base", "cone { from: (0, 0, 0)  to: (0, -$SIZE, 0)  radius: $SIZE  $MORE }"},
     {"torus' outside",
      "torus { center: (0, -1.5 * $SIZE, 0)  normal: (1, 0, 0)  radius: $SIZE  tube: 0.5 * $SIZE  $MORE }"},
+    {"floor of a cut",
+     "difference { box { min: (-$SIZE, -$SIZE, -$SIZE)  max: ($SIZE, $SIZE, $SIZE) }  box { min: (-2 * $SIZE, "
+     "-$SIZE, -2 * $SIZE)  max: (2 * $SIZE, $SIZE, 2 * $SIZE)  transform: translate((0, $SIZE, 0)) }  $MORE }"},
     {"disk", "disk { center: (0, 0, 0)  normal: (0, 1, 0)  radius: $SIZE  $MORE }"},
     {"quad", "quad { center: (0, 0, 0)  u: (0, 0, $SIZE)  v: ($SIZE, 0, 0)  $MORE }"},
     {"plane", "plane { point: ($SIZE, 0, 0)  normal: (0, 1, 0)  $MORE }"},

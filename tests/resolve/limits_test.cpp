@@ -195,6 +195,12 @@ const std::map<std::string_view, Maker>& makers() {
       {"string length", many_in("let _a = \"$ALL\"", "a")},
       {"list depth", nested_lists},
       {"light samples", number_in("render { light_samples: $N }")},
+      {"combined parts", number_in("union { for _i in 1..$N { sphere { } } }")},
+      {"combination depth",
+       [](std::int64_t n, const fs::path&) {
+         return filled("$OPEN sphere { } $CLOSE",
+                       {{"OPEN", repeated("union { ", n)}, {"CLOSE", repeated("} ", n)}});
+       }},
       {"call depth", calls},
       {"function calls", many_calls},
       {"made list", number_in("let _a = [i for i in 1..$N]")},

@@ -79,7 +79,7 @@ TEST(Shapes, CasesAreSound) {
   for (const Shape& shape : shape_cases())
     std::visit(
         [](const auto& s) {
-          if constexpr (Analytic<std::decay_t<decltype(s)>>) {
+          if constexpr (requires { s.validate(); }) {
             EXPECT_TRUE(s.validate().empty()) << s.keyword;
           }
         },
@@ -122,7 +122,7 @@ TEST(Shapes, HitsAreTheEndsOfIntervals) {
           EXPECT_NEAR(length(found->position - (o + d * end)), 0, 1e-13) << s.keyword;
           EXPECT_NEAR(depth_in(s, found->position), 0, 1e-14) << s.keyword;
           const Vec3d n = normalize(found->normal);
-          EXPECT_LT(depth_in(s, found->position + n * 1e-4), 0) << s.keyword;
+          EXPECT_LT(depth_in(s, found->position + n * 1e-7), 0) << s.keyword;
           if (std::abs(dot(n, normalize(d))) > 1e-7) {
             EXPECT_EQ(dot(n, d) < 0, end == interval.lo) << s.keyword;
           }
@@ -157,26 +157,42 @@ TEST(Shapes, CoordinatesBelongToPlaces) {
   }
 }
 
+Shape scaled(const Shape& shape, double scale);
+
+template <class S>
+Shape scaled_as(S s, double scale) {
+  if constexpr (std::is_base_of_v<CombinedShape, S>) {
+    std::vector<CombinedPart> parts;
+    for (const CombinedPart& part : s.parts->list) {
+      Transform place = part.placed ? part.placed->outer_from_part : Transform{};
+      place.t = place.t * scale;
+      parts.emplace_back(scaled(part.shape, scale), place);
+    }
+    return support::combined<S>(std::move(parts));
+  } else {
+    S::fields([&](auto member, const FieldInfo&) {
+      if constexpr (requires { s.*member *= scale; })
+        s.*member *= scale;
+      else if constexpr (std::is_same_v<std::decay_t<decltype(s.*member)>, Vec3d>)
+        s.*member = s.*member * scale;
+    });
+    return s;
+  }
+}
+Shape scaled(const Shape& shape, double scale) {
+  return std::visit([&](const auto& s) { return scaled_as(s, scale); }, shape);
+}
+
 // From a micrometre to ten thousand kilometres: all lengths a times as long, all else the same.
 TEST(Shapes, AreTheSameAtEveryScale) {
   for (const Shape& shape : shape_cases())
     for (const double scale : {1e-6, 1e7}) {
-      const Shape scaled = std::visit(
-          [&](auto s) -> Shape {
-            std::decay_t<decltype(s)>::fields([&](auto member, const FieldInfo&) {
-              if constexpr (requires { s.*member *= scale; })
-                s.*member *= scale;
-              else if constexpr (std::is_same_v<std::decay_t<decltype(s.*member)>, Vec3d>)
-                s.*member = s.*member * scale;
-            });
-            return s;
-          },
-          shape);
+      const Shape resized = scaled(shape, scale);
       Rays rays;
       int hits = 0;
       for (int i = 0; i < 2000; ++i) {
         const Vec3d o = rays.vector() * 1.5, d = rays.direction(i);
-        const auto a = hit(shape, o, d, 0), b = hit(scaled, o * scale, d, 0);
+        const auto a = hit(shape, o, d, 0), b = hit(resized, o * scale, d, 0);
         if (!a && !b) continue;
         ++hits;
         // At the very rim the two may differ.
@@ -195,6 +211,7 @@ TEST(Shapes, AreTheSameAtEveryScale) {
 TEST(Shapes, GrazingRaysMissNothingAndMeetNothingTwice) {
   for_closed_shapes([](const auto& s) {
     const auto surface = emitter(Shape{s});
+    if (!surface) return;  // combinations: their parts are asked
     Rays rays;
     std::mt19937_64 random(8);
     std::uniform_real_distribution<float> uniform;
@@ -339,5 +356,5 @@ TEST(Shapes, DisksAreHitWithinTheirRadius) {
   EXPECT_GT(hits, 100);
 }
 
-}  // namespace
+}  // namespace UNNAMED
 }  // namespace tyndall::shapes

@@ -9,27 +9,11 @@ namespace tyndall::compile {
 
 using shapes::absolute;
 using shapes::larger;
-
-namespace {
-
-// The longest of the image of a box of this half size, by axis.
-Vec3d spread(const Transform& map, const Vec3d& v) {
-  return absolute(map.x) * v.x + absolute(map.y) * v.y + absolute(map.z) * v.z;
-}
-
-}  // namespace
+using shapes::spread;
 
 Vec3d triangle_reach(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const Vec3d sides = larger(larger(b - a, c - b), a - c);
   return larger(larger(a, b), c) + Vec3d(max_component(sides));
-}
-
-Vec3d placed_error(const Transform& outer_from_inner, const Transform& inner_from_outer, const Vec3d& p_inner,
-                   const Vec3d& p_outer, const Vec3d& error_inner) {
-  const Vec3d way_back = spread(inner_from_outer, absolute(p_outer)) + absolute(inner_from_outer.t);
-  const Vec3d off_inverse = absolute(inner_from_outer.point(p_outer) - p_inner);
-  const Vec3d way_out = spread(outer_from_inner, absolute(p_inner)) + absolute(outer_from_inner.t);
-  return spread(outer_from_inner, error_inner + off_inverse + way_back * rounding) + way_out * rounding;
 }
 
 double offset_along(const Vec3d& normal, const Vec3d& position, const Vec3d& origin, const Vec3d& error) {

@@ -12,7 +12,7 @@
 //   turned by 2u, and by more the more they are parallel. A triangle is seen along the ray, which mixes
 //   the axes: 8u of its longest side. So does a cylinder, whose crossings are found in a frame about its
 //   axis: 8u of its height and radius; and so do cones. A torus is asked for the distance to its tube, good
-//   to 8u of its radius and tube.
+//   to 8u of its radius and tube. Shapes combined are asked for one of their parts.
 //
 // `reach` is the sum of these lengths, by axis, and `rounding` times it more than the error (Higham,
 // "Accuracy and Stability of Numerical Algorithms", 2002, ch. 3; Pharr, Jakob and Humphreys, "Physically
@@ -22,18 +22,15 @@
 
 #include "base/transform.h"
 #include "base/vec.h"
+#include "shapes/placed_error.h"
 #include "shapes/query.h"
 
 namespace tyndall::compile {
 
-// 32 u: four times the largest of the counts above, so that nothing hangs on their last unit.
-inline constexpr double rounding = 0x1p-48;
+using shapes::placed_error;
+using shapes::rounding;
 
 Vec3d triangle_reach(const Vec3d& a, const Vec3d& b, const Vec3d& c);
-
-// The error by axis of a place that is given in an inner space with its error there, in the outer space.
-Vec3d placed_error(const Transform& outer_from_inner, const Transform& inner_from_outer, const Vec3d& p_inner,
-                   const Vec3d& p_outer, const Vec3d& error_inner);
 
 // How far along its unit normal a ray that leaves a place of render space must start. `origin` is the world
 // position of render space's zero: transforms are given in the world.

@@ -17,6 +17,7 @@ struct Site;
 class Reader;
 struct PlacedShape;
 struct NamedFile;
+struct ShapeSite;
 
 // Appends the names of parameters.
 using ListNames = void (*)(std::vector<std::string_view>&);
@@ -31,8 +32,8 @@ struct Statement {
   // Does what the statement says; null: the language has it, this version does not.
   void (*run)(Run& run, const Site& site, const syntax::ThingItem& thing,
               const Statement& statement) = nullptr;
-  // Shapes only: reads the shape's own parameters.
-  scene::Shape (*read_shape)(Run& run, Reader& reader) = nullptr;
+  // Shapes only: reads the shape's own parameters. Nothing after an error that the reader does not know of.
+  std::optional<scene::Shape> (*read_shape)(Run& run, Reader& reader, const ShapeSite& site) = nullptr;
   bool closed = false;  // shapes only: has an inside
   // The statement's parameters, and those of a shape where it stands as a value; null where `run` is.
   ListNames list_names = nullptr, list_shape_names = nullptr;
@@ -40,6 +41,8 @@ struct Statement {
   bool of_file = false;
   // Of files with shapes in them: reads what it is as a value. Nothing after an error.
   std::optional<PlacedShape> (*read_file_shape)(Run& run, Reader& reader, const NamedFile& file) = nullptr;
+  // Shapes only: may stand in a combination, and is one, which holds statements.
+  bool combines = false, holds_parts = false;
 
   bool is_shape() const { return read_shape || read_file_shape; }
 };

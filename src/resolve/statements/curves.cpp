@@ -16,7 +16,7 @@ double radius_at(const std::vector<double>& given, std::size_t point, std::size_
 
 }  // namespace
 
-scene::Shape read_curves(Run& run, Reader& reader) {
+std::optional<scene::Shape> read_curves(Run& run, Reader& reader, const ShapeSite&) {
   const auto given = reader.read<CurvesParameters>();
   scene::Curves shape;
   if (!reader.ok()) return shape;

@@ -64,6 +64,9 @@ void run_mesh_light(Run& run, const Site& site, const syntax::ThingItem& thing, 
   if (!reader.ok() || !in || !run.may_add_lights(1, header(thing))) return;
   if (std::holds_alternative<scene::Plane>(in->shape))
     return reader.error(given.in.span, "a plane has no end: its light would be endless", "write a quad");
+  if (shapes::parts_of(in->shape))
+    return reader.error(given.in.span, "combined shapes cannot be a light",
+                        "give them a material with `emission`: then they are seen to glow");
   if (std::holds_alternative<scene::Curves>(in->shape))
     return reader.error(given.in.span, "curves cannot be a light",
                         "give `curves` a material with `emission`: then they are seen to glow");

@@ -7,7 +7,7 @@
 
 namespace tyndall::resolve {
 
-scene::Shape read_mesh(Run& run, Reader& reader) {
+std::optional<scene::Shape> read_mesh(Run& run, Reader& reader, const ShapeSite&) {
   auto given = reader.read<MeshParameters>();
   scene::Mesh shape;
   if (!reader.ok()) return shape;

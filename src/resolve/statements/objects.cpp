@@ -158,6 +158,12 @@ bool Run::may_add_volumes(double more, Span span) {
 
 void run_place(Run& run, const Site& site, const syntax::PlaceItem& place) {
   const std::string_view name = run.symbols.text(place.name.symbol);
+  if (run.combining) {
+    run.combining->complete = false;
+    return run.diagnostics.error(place.name.span,
+                                 fmt::format("an object cannot be a part of '{}'", run.combining->keyword),
+                                 "a template can make parts: `def name(…) { … }`, called as name(…)");
+  }
   const eval::Binding* binding = site.scope->find(place.name.symbol);
   const auto* object = binding ? binding->value.get<eval::ObjectDefinition>() : nullptr;
   if (!object) {

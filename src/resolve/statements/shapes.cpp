@@ -19,6 +19,10 @@ std::string closed_shapes(const Run& run) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+Reader::Others others_of(const Statement& row) {
+  return row.holds_parts ? Reader::Others::allowed : Reader::Others::refused;
+}
+
 // Once for each place in the text.
 void warn_if_open(Run& run, const scene::Mesh& mesh, const syntax::ThingExpr& thing) {
   const std::size_t open = scene::open_edges(run.scene.meshes[mesh.mesh.index]);
@@ -126,11 +130,15 @@ std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside in
   const auto scope = std::make_shared<eval::Scope>();
   scope->parent = literal->scope;
   Reader reader(run.evaluator, run.schemas, {literal->tree, &scope, &run.statements}, thing.block, word,
-                thing.keyword.span);
+                thing.keyword.span, others_of(*row));
   std::optional<PlacedShape> shape;
-  if (!row->of_file)
-    shape = PlacedShape{row->read_shape(run, reader), {}};
-  else if (const auto file = named_file(run, *literal->tree, thing.file, literal->scope))
+  if (!row->of_file) {
+    Site site;
+    site.tree = literal->tree;
+    site.scope = scope;
+    if (auto read = row->read_shape(run, reader, {site, thing.block, thing.keyword.span}))
+      shape = PlacedShape{std::move(*read), {}};
+  } else if (const auto file = named_file(run, *literal->tree, thing.file, literal->scope))
     shape = row->read_file_shape(run, reader, *file);
   const auto placement = reader.read<Placement>();
   reader.finish({}, &outer);
@@ -159,11 +167,13 @@ std::optional<Transform> placed(Reader& reader, const Site& site, const Transfor
 }
 
 void run_shape(Run& run, const Site& site, const syntax::ThingItem& thing, const Statement& row) {
-  Reader reader = reader_of(run, site, thing, row);
-  const scene::Shape shape = row.read_shape(run, reader);
+  Reader reader = reader_of(run, site, thing, row, others_of(row));
+  const std::optional<scene::Shape> shape = row.read_shape(run, reader, {site, thing.block, header(thing)});
   const auto placement = reader.read<ShapePlacement>();
   reader.finish();
-  if (!reader.ok()) return;
+  if (run.combining) run.combining->complete &= reader.ok() && shape;
+  if (!reader.ok() || !shape) return;
+  if (run.combining) return add_part(run, site, reader, *shape, placement, header(thing));
   const auto world_from_object = placed(reader, site, placement.transform);
   if (!world_from_object) return;
   scene::MaterialId material = site.material;
@@ -176,7 +186,7 @@ void run_shape(Run& run, const Site& site, const syntax::ThingItem& thing, const
     else
       material = default_material(run);
   }
-  run.shapes().push_back({shape, *world_from_object, material, site.visible && placement.visible,
+  run.shapes().push_back({*shape, *world_from_object, material, site.visible && placement.visible,
                           header(thing), placement.priority});
 }
 
@@ -223,6 +233,8 @@ void run_group(Run& run, const Site& site, const syntax::ThingItem& thing, const
   if (world_from_local) inside.world_from_local = *world_from_local;
   if (given.material.given()) inside.material = material_of(run, given.material);
   inside.visible = site.visible && given.visible;
+  refuse_of_part(run, reader, given.material.given(), "material");
+  refuse_of_part(run, reader, !given.visible, "visible");
   run_inner_block(run, inside, thing.block, Parameters::read);
 }
 

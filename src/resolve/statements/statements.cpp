@@ -14,20 +14,24 @@ namespace tyndall::resolve {
 namespace {
 
 template <class T>
-scene::Shape read_shape(Run&, Reader& reader) {
+std::optional<scene::Shape> read_shape(Run&, Reader& reader, const ShapeSite&) {
   return reader.read_valid<T>();
 }
 
 template <class T>
 Statement shape() {
-  return {T::keyword,
-          {},
-          {},
-          run_shape,
-          read_shape<T>,
-          T::closed,
-          list_names<T, ShapePlacement>,
-          list_names<T, Placement>};
+  constexpr bool combination = std::is_base_of_v<scene::CombinedShape, T>;
+  Statement row{T::keyword, {}, {}, run_shape};
+  if constexpr (combination)
+    row.read_shape = read_combination<T>;
+  else
+    row.read_shape = read_shape<T>;
+  row.closed = T::closed;
+  row.list_names = list_names<T, ShapePlacement>;
+  row.list_shape_names = list_names<T, Placement>;
+  row.combines = T::closed;
+  row.holds_parts = combination;
+  return row;
 }
 template <>
 Statement shape<scene::Mesh>() {
@@ -207,7 +211,7 @@ void run_thing(Run& run, const Site& site, const syntax::ThingItem& thing) {
     return run.diagnostics.error(header(thing), fmt::format("'{}' needs a file", row->name),
                                  fmt::format("write {} \"model.glb\" {{ … }}", row->name));
   if (thing.file.valid()) row = of_file;
-  row->run(run, site, thing, *row);
+  if (may_stand(run, thing, *row)) row->run(run, site, thing, *row);
 }
 
 }  // namespace tyndall::resolve

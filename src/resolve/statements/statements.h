@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "resolve/reading/parameters.h"
 #include "resolve/reading/statement_table.h"
 #include "scene/scene.h"
 #include "syntax/tree.h"
@@ -13,6 +14,13 @@ namespace tyndall::resolve {
 
 struct PlacedShape;
 struct NamedFile;
+
+// Where a shape is written.
+struct ShapeSite {
+  const Site& site;
+  syntax::BlockId block;
+  Span header;
+};
 
 // The rows of the table, in the order of the manual.
 std::vector<Statement> all_statements();
@@ -32,8 +40,19 @@ void run_camera(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 std::vector<Statement> light_statements();
 void run_shape(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 // Reads a mesh into the scene.
-scene::Shape read_mesh(Run& run, Reader& reader);
-scene::Shape read_curves(Run& run, Reader& reader);
+std::optional<scene::Shape> read_mesh(Run& run, Reader& reader, const ShapeSite&);
+std::optional<scene::Shape> read_curves(Run& run, Reader& reader, const ShapeSite&);
+// Runs the statements in the braces of a combination, of which each shape becomes a part.
+template <class Combination>
+std::optional<scene::Shape> read_combination(Run& run, Reader& reader, const ShapeSite& at);
+// Adds a shape to the combination whose braces are being run.
+void add_part(Run& run, const Site& site, Reader& reader, const scene::Shape& shape,
+              const ShapePlacement& placement, Span header);
+// Reports a parameter that is the combination's alone, where one is being made.
+void refuse_of_part(Run& run, Reader& reader, bool given, std::string_view name);
+// Whether a statement may stand where the run is: in a combination closed shapes may, otherwise all. False
+// after an error.
+bool may_stand(Run& run, const syntax::ThingItem& thing, const Statement& row);
 void run_volume(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 void run_gltf(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 void run_gltf_camera(Run&, const Site&, const syntax::ThingItem&, const Statement&);
