@@ -34,6 +34,10 @@ void run_shape(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 // Reads a mesh into the scene.
 scene::Shape read_mesh(Run& run, Reader& reader);
 scene::Shape read_curves(Run& run, Reader& reader);
+// Of those that are made into meshes: read them into the scene.
+std::vector<Statement> generated_statements();
+// How an open one is closed; empty for other shapes.
+std::string_view way_to_close(std::string_view keyword);
 void run_volume(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 void run_gltf(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 void run_gltf_camera(Run&, const Site&, const syntax::ThingItem&, const Statement&);

@@ -17,7 +17,7 @@ syntax keyword tyndallOperator and not or
 syntax keyword tyndallDefinition def let material medium object var
 syntax keyword tyndallControl else for if in include place return then
 syntax keyword tyndallInput N P frame n p time uv
-syntax keyword tyndallStatement animation box camera cone curves cylinder disk gltf group light mesh plane quad render sphere torus volume
+syntax keyword tyndallStatement animation box camera cone curves cylinder disk gltf group heightfield lathe light mesh plane prism quad render sphere sweep text torus volume
 syntax match tyndallBuiltin /\v<(abs|acos|append|asin|atan|atan2|blackbody|bounds|ceil|cells|checker|clamp|cos|cross|curl|direction|distance|dot|draine|droplets|exp|fbm|floor|fournier_forand|fract|grid|hg|image|isotropic|keys|length|log|look_at|luminance|matrix|max|min|mix|mod|noise|normalize|pow|random|rayleigh|reflect|remap|ridged|rotate|rotate_x|rotate_y|rotate_z|round|saturate|scale|sd_box|sd_capsule|sd_sphere|sd_torus|sign|sin|smooth_union|smoothstep|sort|sqrt|step|sum|tan|translate|turbulence)>\ze\s*\(/
 " generated end
 
