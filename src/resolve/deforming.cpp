@@ -145,7 +145,7 @@ bool deforms_only(Run& run, const SceneThen& then) {
   for (std::size_t i = 0; i < first.meshes.size() && alike; ++i) {
     const scene::TriangleMesh &was = mesh_of(run.scene, first, i), &is = mesh_of(then.scene, now, i);
     if (is.triangles != was.triangles) return refuse(first.meshes[i].triangles, "triangles");
-    if (is.uvs != was.uvs) return refuse(first.meshes[i].uvs, "uvs");
+    if (is.uvs != was.uvs && first.meshes[i].uvs.valid()) return refuse(first.meshes[i].uvs, "uvs");
     alike = is.points.size() == was.points.size() && is.normals.size() == was.normals.size();
   }
   for (std::size_t i = 0; i < first.strands.size() && alike; ++i)

@@ -19,7 +19,7 @@ struct Run;
 struct Written {
   struct MeshAt {
     scene::MeshId mesh;
-    Span points, triangles, uvs;
+    Span points, triangles, uvs;  // of one that is made from parameters no place of uvs: they stay
   };
   struct StrandsAt {
     scene::StrandSetId strands;

@@ -2,6 +2,7 @@
 #include "resolve/limits.h"
 
 #include "eval/evaluator.h"
+#include "generate/made.h"
 #include "resolve/grids.h"
 #include "resolve/images.h"
 #include "scene/render_settings.h"
@@ -23,7 +24,8 @@ std::span<const Limit> limits() {
       {"template depth", max_template_depth, "templates and objects placed within each other"},
       {"block depth", max_block_depth, "blocks within blocks, through all calls of templates"},
       {"repetitions", max_repetitions,
-       "rounds of loops, calls of templates and placements in a scene, in all"},
+       "rounds of loops, calls of templates and placements in a scene, in all, and facets of lathes, prisms, "
+       "height fields, sweeps and texts"},
       {"placed things", max_repetitions, "objects, and volumes in them, counted each time they are placed"},
       {"objects", max_objects,
        "objects placed for the first time; those that differ from placement to placement, each time"},
@@ -41,6 +43,10 @@ std::span<const Limit> limits() {
       {"combined parts", max_combined_parts,
        "shapes in a `difference`, `intersection` or `union`, with those in it"},
       {"combination depth", max_combined_depth, "combinations within each other"},
+      {"outline points", generate::most_outline_points,
+       "points of the profile of a `lathe`, or of all outlines of a `prism`"},
+      {"facets", generate::most_facets,
+       "four-sided facets of a `lathe`, `prism`, `heightfield`, `sweep` or `text`"},
       {"call depth", eval::max_call_depth, "functions that call each other"},
       {"function calls", eval::max_total_calls, "calls of functions for one value"},
       {"evaluation depth", eval::max_expression_depth, "operations within each other, through all calls"},

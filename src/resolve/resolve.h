@@ -22,7 +22,7 @@ namespace tyndall::resolve {
 // A file, or a part of one, that a scene holds in memory.
 struct Asset {
   std::string path;
-  std::string kind;  // "grid", "image", "image in a temporary file", "texture", "mesh"
+  std::string kind;  // "grid", "image", "image in a temporary file", "texture", "mesh", "font"
   std::string part;  // of the file: a grid's name, an image's channel; may be empty
   auto operator<=>(const Asset&) const = default;
 };

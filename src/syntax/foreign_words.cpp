@@ -37,21 +37,26 @@ constexpr std::string_view choice = "write if condition { … } else { … }";
 constexpr std::string_view definition = "write let name = value, or def name(x) = value";
 constexpr std::string_view function = "write def name(x) = value, or def name(x) = { … return value }";
 constexpr std::string_view object = "write object name { … }, then place name { transform: … }";
+constexpr std::string_view hills = "write heightfield { size: (x, z) height: … }";
+constexpr std::string_view outline = "write prism { outline: [(x, z), …] height: … }";
+constexpr std::string_view profile = "write lathe { profile: [(radius, y), …] }";
+constexpr std::string_view swept = "write sweep { path: [(x, y, z), …] radius: … }";
 constexpr std::string_view round_tube = "write curves { points: [ … ] radius: … }";
 
 constexpr ForeignWord statements[] = {
     // shapes
-    {"text", "there are no letters: write mesh { points: [ … ] triangles: [ … ] }"},
-    {"heightfield", mesh},
-    {"height_field", mesh},
-    {"terrain", mesh},
+    {"height_field", hills},
+    {"terrain", hills},
     {"triangle", mesh},
     {"mesh2", mesh},
     {"trianglemesh", mesh},
-    {"polygon", mesh},
-    {"prism", mesh},
-    {"lathe", mesh},
-    {"sor", mesh},
+    {"polygon", outline},
+    {"extrude", outline},
+    {"linear_extrude", outline},
+    {"sor", profile},
+    {"revolve", profile},
+    {"rotate_extrude", profile},
+    {"letters", "write text { text: \"…\" size: … depth: … }"},
     {"bicubic_patch", mesh},
     {"superellipsoid", mesh},
     {"isosurface", "its inside is a volume: cut density by the function"},
@@ -70,9 +75,9 @@ constexpr ForeignWord statements[] = {
     {"frustum", "write cone { from: … to: … radius: … tip_radius: … }"},
     {"donut", "write torus { center: … normal: … radius: … tube: … }"},
     {"circle", "write disk { center: … normal: … radius: … }"},
-    {"sphere_sweep", round_tube},
-    {"capsule", round_tube},
-    {"tube", round_tube},
+    {"sphere_sweep", swept},
+    {"capsule", swept},
+    {"tube", swept},
     {"hair", round_tube},
     {"floor", "write plane { point: (0, 0, 0) normal: (0, 1, 0) }"},
     {"ground", "write plane { point: (0, 0, 0) normal: (0, 1, 0) }"},

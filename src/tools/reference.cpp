@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "eval/names.h"
+#include "generate/generated.h"
 #include "resolve/reading/parameters.h"
 #include "shader/material_outputs.h"
 
@@ -26,6 +27,9 @@ std::string shown(const scene::Clamp& value) { return scene::describe(value); }
 std::string shown(Angle value) { return fmt::format("{:.4g}deg", value.radians * 180 / 3.14159265358979); }
 std::string shown(const scene::ShutterCurve& value) { return scene::describe(value); }
 std::string shown(const resolve::ShutterTimes& value) { return shown(value.closes.angle(24)); }
+std::string shown(generate::Align value) {
+  return std::string(generate::alignments[static_cast<std::size_t>(value)].name);
+}
 std::string shown(const Vec3d& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
 std::string shown(const scene::Resolution& size) { return fmt::format("({}, {})", size.width, size.height); }
 template <class T>
@@ -122,6 +126,8 @@ std::vector<ReferenceStatement> made_statements() {
                       static_cast<const std::tuple<Placement>*>(nullptr));
   statements.add_lights(static_cast<const scene::Light*>(nullptr));
   statements.add_each(static_cast<const scene::Shape*>(nullptr),
+                      static_cast<const std::tuple<ShapePlacement>*>(nullptr));
+  statements.add_each(static_cast<const generate::Generated*>(nullptr),
                       static_cast<const std::tuple<ShapePlacement>*>(nullptr));
   statements.add_file<MeshFileParameters>();
   statements.add_file<GltfParameters>();

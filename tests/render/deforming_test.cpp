@@ -69,6 +69,34 @@ light environment { radiance: 0.2 }
   }
 }
 
+// Shapes that are made into meshes from what changes with time, likewise.
+TEST(Deforming, GeneratedShapesThatChangeAreThingsThatMove) {
+  const std::string things = R"(
+let now = MOVED
+def waves(uv) = 0.2 * sin(7 * uv.x) - 0.7 + 0.3 * now
+lathe { profile: [(0, 0.3 * now), (0.4, 0.3 * now), (0.2, 0.5 + 0.3 * now)]  segments: 12  transform: PLACE }
+prism { outline: [(0.5, -0.2), (0.9, -0.2), (0.7, 0.3)]  height: 0.3  transform: translate((0, 0.3 * now, 0)) * PLACE }
+heightfield { size: (1, 1)  height: waves  resolution: 4  transform: PLACE }
+sweep { path: [(-0.6, 0.3 * now, 0), (-0.9, 0.4 + 0.3 * now, 0), (-0.5, 0.7 + 0.3 * now, 0)]  radius: [0.1, 0.02]  segments: 8  transform: PLACE }
+light distant { direction: (-0.3, -0.4, -1)  irradiance: 3 }
+light environment { radiance: 0.2 }
+)";
+  const auto scene_with = [&](const std::string& moved, const std::string& place) {
+    std::string text = open_shutter + settings + from_above + things;
+    for (const auto& [word, with] : {std::pair<std::string, std::string>{"MOVED", moved}, {"PLACE", place}})
+      for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word))
+        text.replace(at, word.size(), with);
+    return scene_of(text);
+  };
+  const scene::Scene by_numbers = scene_with("time", "translate((0, 0, 0))"),
+                     by_place = scene_with("0", "translate((0, 0.3 * time, 0))");
+  ASSERT_EQ(by_numbers.meshes.size(), 4u);
+  for (const std::size_t i : {0, 2, 3}) EXPECT_EQ(by_numbers.meshes[i]->later.size(), 1u) << i;
+  EXPECT_EQ(by_place.motion.shapes.size(), 4u);
+  support::expect_same(support::measure(by_numbers).whole(), support::measure(by_place).whole(), 0, 0.02,
+                       "moved");
+}
+
 // As many poses as the way needs: none, one, and more the more it bends.
 TEST(Deforming, HasAsManyPosesAsItsWayNeeds) {
   const auto poses = [](const std::string& y) {

@@ -1,6 +1,7 @@
 // Lights of any shape, and shapes that glow: the same light whichever way it is found.
 #include <gtest/gtest.h>
 
+#include "support/found_by_chance.h"
 #include "support/measure.h"
 #include "support/scene_builder.h"
 #include "support/ways.h"
@@ -63,18 +64,7 @@ TEST(GlowingShapes, AreTheSameWhicheverWayTheyAreFound) {
         for (SceneBuilder* b : {&sampled, &hit})
           b->scene.shapes.back().world_from_object =
               Transform{{1.2, 0.1, 0}, {0, 0.7, 0.2}, {0, 0, 1}, {0, 0.2, 0}};
-      // The same emission as a value of the point, which is not known to be the same everywhere.
-      scene::Material& material = hit.scene.materials.back();
-      vm::Builder builder(false);
-      const vm::NodeId zero =
-          builder.emit(vm::Op::mul, {builder.input(vm::Input::p_x), builder.constant(0)}, {});
-      std::vector<vm::NodeId> outputs = {builder.constant(0.2f)};
-      for (const float e : {5.0f, 3.0f, 1.0f})
-        outputs.push_back(builder.emit(vm::Op::add, {zero, builder.constant(e)}, {}));
-      material.program = *builder.finish(outputs);
-      material.base_color = {0, 0, 0};
-      material.emission = scene::RgbOutputs{1, 2, 3};
-      material.given.resize(4);
+      support::glow_unsampled(hit, 0.2f, Rgb(5, 3, 1));
       const compile::CompiledScene a = compile::compile(sampled.scene), b = compile::compile(hit.scene);
       EXPECT_EQ(a.lights.size(), 1u);
       EXPECT_EQ(b.lights.size(), 0u);

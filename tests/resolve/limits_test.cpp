@@ -226,6 +226,12 @@ medium _m() {
   albedo = 1
 }
 )")},
+      {"outline points", number_in("lathe { profile: [(1, i) for i in 1..$N] segments: 3 }")},
+      {"facets",
+       [](std::int64_t n, const fs::path&) {
+         return filled("lathe { profile: [(1, i) for i in 0..1000] segments: $N }",
+                       {{"N", (n + 999) / 1000}});
+       }},
       {"octaves", number_in("let _a = fbm((1, 2, 3), octaves: $N)")},
   };
   return table;
@@ -324,7 +330,7 @@ t30()
       const Resolved r = resolve_text(camera_and_light + text);
       ASSERT_EQ(r.diagnostics.error_count(), 1) << r.messages();
       const Diagnostic& d = r.diagnostics.all()[0];
-      EXPECT_EQ(d.message, "more than 10000000 rounds of loops and calls of templates");
+      EXPECT_EQ(d.message, "more than 10000000 rounds of loops and calls of templates, and facets of shapes");
       EXPECT_EQ(r.sources.text(d.span), "t30()");
       EXPECT_TRUE(r.scene.shapes.empty() && r.scene.volumes.empty() && r.scene.prototypes.empty());
     }

@@ -25,6 +25,7 @@ std::string text_of_file(const std::string& path) {
 std::unordered_set<std::uint32_t> definitions(const syntax::SyntaxTree& tree) {
   std::unordered_set<std::uint32_t> places;
   for (const syntax::Parameter& parameter : tree.parameters) places.insert(parameter.name.span.begin);
+  for (const syntax::Comprehension& list : tree.comprehensions) places.insert(list.name.span.begin);
   for (const syntax::Item& item : tree.items) {
     const auto add = [&](const syntax::Name& name) { places.insert(name.span.begin); };
     if (const auto* let = std::get_if<syntax::LetItem>(&item.node)) add(let->name);

@@ -14,6 +14,7 @@
 #include "base/transform.h"
 #include "base/vec.h"
 #include "eval/value.h"
+#include "generate/sweep.h"
 #include "optics/atmosphere.h"
 #include "scene/scene.h"
 
@@ -85,16 +86,12 @@ struct MeshParameters {
 struct StrandPoints {
   std::vector<std::vector<Vec3d>> strands;
 };
-// One radius, or a list.
-struct StrandRadii {
-  std::vector<double> values;
-};
 
 // Curves as written; they become a scene::StrandSet.
 struct CurvesParameters {
   static constexpr std::string_view keyword = scene::Curves::keyword;
   StrandPoints points;
-  StrandRadii radius;
+  generate::Radii radius;
   template <class F>
   static void fields(F&& field) {
     using P = CurvesParameters;

@@ -364,7 +364,7 @@ void Reader::read_value(const FieldInfo& info, const Given& given, StrandPoints&
   }
 }
 
-void Reader::read_value(const FieldInfo& info, const Given& given, StrandRadii& to) {
+void Reader::read_value(const FieldInfo& info, const Given& given, generate::Radii& to) {
   const eval::Value written = evaluator_.evaluate(*site_.tree, given.item->value, *site_.scope);
   ok_ = ok_ && !written.is_error();
   if (written.is_error()) return;

@@ -13,6 +13,7 @@
 #include "base/diagnostics.h"
 #include "base/fields.h"
 #include "eval/evaluator.h"
+#include "generate/generated.h"
 #include "resolve/reading/parameters.h"
 #include "resolve/reading/statement_table.h"
 #include "scene/scene.h"
@@ -54,7 +55,8 @@ using SchemasBesideFamilies =
               GroupParameters, PlaceParameters, GltfParameters, GltfShapeParameters, GltfCameraParameters,
               MeshFileParameters, MeshFileShapeParameters, scene::PerspectiveCamera,
               scene::OrthographicCamera, scene::SphericalCamera>;
-using SchemasOfShapes = WithAlternatives<SchemasBesideFamilies, scene::Shape>::Type;
+using SchemasOfGenerated = WithAlternatives<SchemasBesideFamilies, generate::Generated>::Type;
+using SchemasOfShapes = WithAlternatives<SchemasOfGenerated, scene::Shape>::Type;
 using Schemas =
     WithAlternatives<WithAlternatives<SchemasOfShapes, scene::Light>::Type, scene::LightShapes>::AsLights;
 
@@ -103,6 +105,8 @@ class Reader {
   // The place of a parameter's value, or of the header.
   Span place(std::string_view field) const;
   void error(Span span, std::string message, std::string help = {});
+  // Something is wrong with a value, which has been told.
+  void refuse() { ok_ = false; }
 
  private:
   struct Given {
@@ -165,7 +169,13 @@ class Reader {
   void read_value(const FieldInfo& info, const Given& given, std::vector<Vec3d>& to);
   void read_value(const FieldInfo& info, const Given& given, std::vector<Pair<double>>& to);
   void read_value(const FieldInfo& info, const Given& given, StrandPoints& to);
-  void read_value(const FieldInfo& info, const Given& given, StrandRadii& to);
+  void read_value(const FieldInfo& info, const Given& given, generate::Radii& to);
+  // What generated shapes take (reader_generated.cpp).
+  void read_value(const FieldInfo& info, const Given& given, Pair<double>& to);
+  void read_value(const FieldInfo& info, const Given& given, generate::Outlines& to);
+  void read_value(const FieldInfo& info, const Given& given, generate::Align& to);
+  // Errors in the function are reported as it is called, by this reader.
+  void read_value(const FieldInfo& info, const Given& given, generate::HeightFunction& to);
   // A value, or an element of a list, as `type` with the parameter's unit; an error after reporting one.
   eval::Value converted(eval::Type type, const FieldInfo& info, const Given& given, const eval::Value& value,
                         std::string_view what);

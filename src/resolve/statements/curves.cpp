@@ -5,17 +5,6 @@
 
 namespace tyndall::resolve {
 
-namespace {
-
-// The radius at each of a strand's points: one for all, from root to tip, or one each.
-double radius_at(const std::vector<double>& given, std::size_t point, std::size_t points) {
-  if (given.size() == points) return given[point];
-  const double along = static_cast<double>(point) / static_cast<double>(points - 1);
-  return given.front() + along * (given.back() - given.front());
-}
-
-}  // namespace
-
 std::optional<scene::Shape> read_curves(Run& run, Reader& reader, const ShapeSite&) {
   const auto given = reader.read<CurvesParameters>();
   scene::Curves shape;
@@ -43,7 +32,7 @@ std::optional<scene::Shape> read_curves(Run& run, Reader& reader, const ShapeSit
     }
     for (std::size_t i = 0; i < strand.size(); ++i) {
       set.points.push_back(strand[i]);
-      set.radii.push_back(radius_at(radii, i, strand.size()));
+      set.radii.push_back(given.radius.at(i, strand.size()));
     }
     set.begin.push_back(static_cast<std::uint32_t>(set.points.size()));
   }

@@ -76,9 +76,10 @@ bool Run::may_repeat(double rounds, Span span) {
 bool Run::may_foresee(double rounds, Span span) {
   if (static_cast<double>(repetitions) + rounds <= static_cast<double>(options.max_repetitions)) return true;
   if (!stopped)
-    diagnostics.error(
-        span, fmt::format("more than {} rounds of loops and calls of templates", options.max_repetitions),
-        "a scene may have that many in all");
+    diagnostics.error(span,
+                      fmt::format("more than {} rounds of loops and calls of templates, and facets of shapes",
+                                  options.max_repetitions),
+                      "a scene may have that many in all");
   stopped = true;
   return false;
 }

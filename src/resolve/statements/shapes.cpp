@@ -24,9 +24,13 @@ Reader::Others others_of(const Statement& row) {
 }
 
 // Once for each place in the text.
-void warn_if_open(Run& run, const scene::Mesh& mesh, const syntax::ThingExpr& thing) {
+void warn_if_open(Run& run, const scene::Mesh& mesh, const syntax::ThingExpr& thing, std::string_view word) {
   const std::size_t open = scene::open_edges(run.scene.meshes[mesh.mesh.index]);
   if (open == 0 || !run.warned_meshes.insert(&thing).second) return;
+  if (const std::string_view help = way_to_close(word); !help.empty())
+    return run.diagnostics.warning(thing.keyword.span,
+                                   fmt::format("this {} is open: a volume fills what is closed", word),
+                                   std::string(help));
   run.diagnostics.warning(
       thing.keyword.span,
       fmt::format("the mesh is open or badly wound at {} edge{}", open, open == 1 ? "" : "s"),
@@ -144,7 +148,7 @@ std::optional<PlacedShape> read_shape_value(Run& run, const Thing& in, Inside in
   reader.finish({}, &outer);
   if (!reader.ok() || !shape) return std::nullopt;
   if (const auto* mesh = std::get_if<scene::Mesh>(&shape->shape); mesh && inside == Inside::needed)
-    warn_if_open(run, *mesh, thing);
+    warn_if_open(run, *mesh, thing, word);
   return PlacedShape{shape->shape, placement.transform * shape->outer_from_shape};
 }
 

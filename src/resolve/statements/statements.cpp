@@ -91,6 +91,8 @@ std::vector<Statement> all_statements() {
   const std::vector<Statement> lights = light_statements();
   rows.insert(rows.end(), lights.begin(), lights.end());
   add_shapes(rows, static_cast<const scene::Shape*>(nullptr));
+  const std::vector<Statement> generated = generated_statements();
+  rows.insert(rows.end(), generated.begin(), generated.end());
   rows.push_back(file<MeshFileParameters, MeshFileShapeParameters>(run_mesh_file, read_mesh_file_shape));
   rows.push_back(file<GltfParameters, GltfShapeParameters>(run_gltf, read_gltf_shape));
   rows.push_back({GltfCameraParameters::keyword,

@@ -53,6 +53,10 @@ void refuse_of_part(Run& run, Reader& reader, bool given, std::string_view name)
 // Whether a statement may stand where the run is: in a combination closed shapes may, otherwise all. False
 // after an error.
 bool may_stand(Run& run, const syntax::ThingItem& thing, const Statement& row);
+// Of those that are made into meshes: read them into the scene.
+std::vector<Statement> generated_statements();
+// How an open one is closed; empty for other shapes.
+std::string_view way_to_close(std::string_view keyword);
 void run_volume(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 void run_gltf(Run&, const Site&, const syntax::ThingItem&, const Statement&);
 void run_gltf_camera(Run&, const Site&, const syntax::ThingItem&, const Statement&);
