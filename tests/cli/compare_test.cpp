@@ -122,12 +122,12 @@ TEST_F(Compare, ZTestsTellNoiseFromChange) {
   const std::string a = render("a.exr", {"--aov", "variance"}),
                     b = render("b.exr", {"--aov", "variance", "--seed", "1"}),
                     thicker = render("c.exr", {"--aov", "variance", "--seed", "2", "--set", "thickness=12"}),
-                    plain = render("d.exr", {});
+                    plain = render("d.exr", {}), other = render("e.exr", {"--seed", "3"});
   EXPECT_EQ(tyndall({"compare", a, b, "--significance", "0.001"}).status, 0);
   const Outcome far = tyndall({"compare", thicker, a, "--significance", "0.001"});
   EXPECT_EQ(far.status, 3);
   EXPECT_NE(far.err.find("standard errors away"), std::string::npos) << far.err;
-  const Outcome none = tyndall({"compare", plain, plain, "--significance", "0.001"});
+  const Outcome none = tyndall({"compare", plain, other, "--significance", "0.001"});
   EXPECT_EQ(none.status, 1);
   EXPECT_NE(none.err.find("--aov variance"), std::string::npos) << none.err;
   EXPECT_EQ(tyndall({"compare", a, b, "--significance", "1"}).status, 2);
