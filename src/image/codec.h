@@ -1,8 +1,8 @@
 // Picture files as bytes: what the module around OpenImageIO does for image.cpp.
 //
 // Debian's OpenImageIO brings some 250 shared libraries, a quarter of a second of every start. So it lives in
-// a module of its own that is loaded when the first picture is written or read, and never for `check` or
-// `--help`.
+// a module of its own that is loaded when the first picture is read or a JPEG or TIFF is written (encoder.h
+// has what writes the others), and never for `check` or `--help`.
 #pragma once
 
 #include <cstddef>
@@ -46,8 +46,7 @@ struct Picture {
 
 // The module's functions.
 struct Codec {
-  // The file's bytes, of samples as they are: floats of an EXR, and of others numbers from 0 to 1. Gives an
-  // error message, or an empty string.
+  // The bytes of a JPEG or TIFF, of numbers from 0 to 1. Gives an error message, or an empty string.
   std::string (*encode)(const Image& image, const Metadata& metadata, Format format,
                         std::vector<unsigned char>& bytes);
   // The bytes of an EXR with these texts in place of its own.

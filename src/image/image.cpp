@@ -16,6 +16,7 @@
 #include "image/colors.h"
 #include "image/cut_short.h"
 #include "image/develop.h"
+#include "image/encoder.h"
 #include "image/files.h"
 #include "image/kinds.h"
 
@@ -48,10 +49,10 @@ std::string unknown_format(const std::string& path) {
       extension.empty() ? "has no extension" : fmt::format("has the unknown extension '{}'", extension));
 }
 
-// The module around OpenImageIO, found beside the program by its run path; null with a reason when it is not
-// there.
-struct LoadedCodec {
-  const Codec* codec = nullptr;
+// What a module exports, found beside the program by its run path; null with a reason when it is not there.
+template <class T>
+struct Loaded {
+  const T* functions = nullptr;
   std::string problem;
 };
 // The loader's own words tell of segments that could not be mapped, where memory has run out.
@@ -61,15 +62,30 @@ std::string why_not_loaded(std::string_view words) {
       return fmt::format("there is not enough memory for the library of picture formats ({})", words);
   return std::string(words);
 }
-const LoadedCodec& load_codec() {
-  static const LoadedCodec loaded = [] {
-    LoadedCodec result;
-    void* module = ::dlopen(TYNDALL_CODEC_FILE, RTLD_NOW | RTLD_LOCAL);
-    if (module != nullptr) result.codec = static_cast<const Codec*>(::dlsym(module, codec_symbol));
-    if (result.codec == nullptr) result.problem = why_not_loaded(::dlerror());
-    return result;
-  }();
+template <class T>
+Loaded<T> load_module(const char* file, const char* symbol) {
+  Loaded<T> result;
+  void* module = ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  if (module != nullptr) result.functions = static_cast<const T*>(::dlsym(module, symbol));
+  if (result.functions == nullptr) result.problem = why_not_loaded(::dlerror());
+  return result;
+}
+const Loaded<Codec>& load_codec() {
+  static const Loaded<Codec> loaded = load_module<Codec>(TYNDALL_CODEC_FILE, codec_symbol);
   return loaded;
+}
+
+// The bytes of a picture as it is to be in the file.
+std::string encode(const Image& image, const Metadata& metadata, Format format,
+                   std::vector<unsigned char>& bytes) {
+  if (format == Format::jpeg || format == Format::tiff) {
+    const Loaded<Codec>& codec = load_codec();
+    return codec.functions ? codec.functions->encode(image, metadata, format, bytes) : codec.problem;
+  }
+  static const Loaded<Encoder> encoder = load_module<Encoder>(TYNDALL_ENCODER_FILE, encoder_symbol);
+  if (!encoder.functions) return encoder.problem;
+  return format == Format::exr ? encoder.functions->exr(image, metadata, bytes)
+                               : encoder.functions->png(image, metadata, bytes);
 }
 
 void make_linear(Image& image) {
@@ -167,9 +183,12 @@ std::vector<std::size_t> chosen_channels(const std::vector<std::string>& channel
 // A message when there is no plain file: pictures are read here and there in theirs, which no pipe allows,
 // and a pipe that nothing writes to would never be open.
 std::string no_plain_file(const std::string& path) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
+  std::error_code failed;
+  const auto status = std::filesystem::status(path, failed);
   if (std::filesystem::is_regular_file(status)) return {};
+  // Such as a name that is too long, or a folder that may not be entered.
+  if (failed && status.type() != std::filesystem::file_type::not_found)
+    return fmt::format("cannot read '{}': {}", path, failed.message());
   const std::string_view why = !std::filesystem::exists(status)        ? "no such file"
                                : std::filesystem::is_directory(status) ? "it is a directory"
                                                                        : "it is no plain file";
@@ -206,26 +225,21 @@ float linear_from_srgb(float srgb) {
 std::string write(const std::string& path, const Image& image, const Metadata& metadata, const View& view) {
   const std::optional<Format> format = format_of(path);
   if (!format) return unknown_format(path);
-  const LoadedCodec& loaded = load_codec();
-  std::string problem = loaded.problem;
+  Metadata told = metadata;
+  if (*format == Format::exr) tell(told, view);
   std::vector<unsigned char> bytes;
-  if (problem.empty()) {
-    Metadata told = metadata;
-    if (*format == Format::exr) tell(told, view);
-    problem = *format == Format::exr ? loaded.codec->encode(image, told, *format, bytes)
-                                     : loaded.codec->encode(develop(image, view), told, *format, bytes);
-  }
+  const std::string problem = *format == Format::exr ? encode(image, told, *format, bytes)
+                                                     : encode(develop(image, view), told, *format, bytes);
   if (!problem.empty()) return fmt::format("cannot write '{}': {}", path, problem);
   return write_file_whole(path, std::as_bytes(std::span(bytes)));
 }
 
 std::string encode_png(const Image& image, const View& view, std::vector<unsigned char>& bytes) {
-  const LoadedCodec& loaded = load_codec();
-  return loaded.codec ? loaded.codec->encode(develop(image, view), {}, Format::png, bytes) : loaded.problem;
+  return encode(develop(image, view), {}, Format::png, bytes);
 }
 
 std::string retell(const std::string& path, const Metadata& metadata, const View& view) {
-  const LoadedCodec& loaded = load_codec();
+  const Loaded<Codec>& loaded = load_codec();
   std::string problem = loaded.problem;
   std::vector<unsigned char> bytes;
   if (problem.empty()) {
@@ -234,7 +248,7 @@ std::string retell(const std::string& path, const Metadata& metadata, const View
       return entry.first == exposure_entry || entry.first == tonemap_entry;
     });
     tell(told, view);
-    problem = loaded.codec->retell({path, name_of(Format::exr)}, told, bytes);
+    problem = loaded.functions->retell({path, name_of(Format::exr)}, told, bytes);
   }
   if (!problem.empty()) return fmt::format("cannot write '{}': {}", path, problem);
   return write_file_whole(path, std::as_bytes(std::span(bytes)));
@@ -252,16 +266,16 @@ std::vector<std::uint8_t> display_rgb(const Image& image, const View& view) {
 }
 
 std::string resize(const Image& image, int width, int height, Image& resized) {
-  const LoadedCodec& loaded = load_codec();
-  if (!loaded.codec) return loaded.problem;
+  const Loaded<Codec>& loaded = load_codec();
+  if (!loaded.functions) return loaded.problem;
   resized = {width, height, image.channels, {}};
   resized.pixels.resize(resized.index(0, height, 0));
-  return loaded.codec->resize(image, resized);
+  return loaded.functions->resize(image, resized);
 }
 
 std::string draw_text(Image& image, const std::string& text, const Image::Place& part) {
-  const LoadedCodec& loaded = load_codec();
-  return loaded.codec ? loaded.codec->draw_text(image, text, part) : loaded.problem;
+  const Loaded<Codec>& loaded = load_codec();
+  return loaded.functions ? loaded.functions->draw_text(image, text, part) : loaded.problem;
 }
 
 std::string check_writable(const std::string& path) {
@@ -279,9 +293,9 @@ ReadResult decoded(const std::string& path, Decode decode) {
   if (std::string problem = no_plain_file(path); !problem.empty()) return {.error = std::move(problem)};
   if (is_cut_short(path)) return {.error = ends_too_early(path)};
 
-  const LoadedCodec& loaded = load_codec();
-  ReadResult result = loaded.codec != nullptr ? (loaded.codec->*decode)({path, name_of(*format)})
-                                              : ReadResult{.error = loaded.problem};
+  const Loaded<Codec>& loaded = load_codec();
+  ReadResult result = loaded.functions != nullptr ? (loaded.functions->*decode)({path, name_of(*format)})
+                                                  : ReadResult{.error = loaded.problem};
   if (!result.error.empty()) return {.error = fmt::format("cannot read '{}': {}", path, result.error)};
   if (*format == Format::exr)
     result.view = told_view(result.metadata);
@@ -299,13 +313,13 @@ std::string read_rows(const std::string& path, const std::string& channel, std::
                       RowTaker& taker) {
   if (std::string problem = no_plain_file(path); !problem.empty()) return problem;
   if (is_cut_short(path)) return ends_too_early(path);
-  const LoadedCodec& loaded = load_codec();
+  const Loaded<Codec>& loaded = load_codec();
   LinearRows linear(taker, encoding);
   std::string error = loaded.problem;
-  if (loaded.codec) {
+  if (loaded.functions) {
     const std::string format = robust_format_of_file(path);
     const auto decode = [&](RowTaker& to) {
-      return loaded.codec->decode_rows({path, format}, chosen_channels, &channel, to);
+      return loaded.functions->decode_rows({path, format}, chosen_channels, &channel, to);
     };
     error = format.empty() ? decode_apart(decode, linear) : decode(linear);
   }
@@ -316,16 +330,16 @@ std::string read_rows(std::span<const std::byte> bytes, Encoding encoding, RowTa
   const std::string format = robust_format(bytes);
   if (format != "png" && format != "jpeg" && format != "webp") return "is no PNG, JPEG or WebP picture";
   if (is_cut_short(bytes)) return "is a picture that ends too early";
-  const LoadedCodec& loaded = load_codec();
+  const Loaded<Codec>& loaded = load_codec();
   const auto all = [](const std::vector<std::string>& channels, const void*) {
     std::vector<std::size_t> out(channels.size());
     std::iota(out.begin(), out.end(), std::size_t{0});
     return out;
   };
   LinearRows linear(taker, encoding);
-  const std::string error = loaded.codec
-                                ? loaded.codec->decode_rows({"texture", format, bytes}, all, nullptr, linear)
-                                : loaded.problem;
+  const std::string error =
+      loaded.functions ? loaded.functions->decode_rows({"texture", format, bytes}, all, nullptr, linear)
+                       : loaded.problem;
   return error.empty() ? error : fmt::format("cannot be read: {}", error);
 }
 

@@ -25,23 +25,10 @@ constexpr std::size_t most_text = 60'000;
 OIIO::ImageSpec spec_of(const Image& image, const Metadata& metadata, Format format) {
   const auto channels = static_cast<int>(image.channels.size());
   OIIO::ImageSpec spec(image.width, image.height, channels,
-                       format == Format::exr    ? OIIO::TypeDesc::FLOAT
-                       : format == Format::tiff ? OIIO::TypeDesc::UINT16
-                                                : OIIO::TypeDesc::UINT8);
+                       format == Format::tiff ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
   spec.channelnames = image.channels;
   // OpenImageIO would write the time of day: the same picture is to be the same bytes.
   spec.attribute("DateTime", "");
-  if (format == Format::exr) {
-    const Image::Place place = whole_of(image);
-    spec.x = place.x;
-    spec.y = place.y;
-    spec.full_width = place.whole_width;
-    spec.full_height = place.whole_height;
-    for (const auto& [name, value] : metadata) spec.attribute(name, value);
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "Linear");
-    return spec;
-  }
   spec.attribute("oiio:ColorSpace", "sRGB");
   // Of half a step of 8 bits at most, the same for the same picture: slow gradients of fog show no bands.
   if (spec.format == OIIO::TypeDesc::UINT8) spec.attribute("oiio:dither", 1);
@@ -54,7 +41,7 @@ OIIO::ImageSpec spec_of(const Image& image, const Metadata& metadata, Format for
   std::string description;
   for (const auto& [name, value] : metadata) {
     if (name == "Software") spec.attribute(name, value);
-    if (format != Format::png && description.size() + name.size() + value.size() > most_text) continue;
+    if (description.size() + name.size() + value.size() > most_text) continue;
     description += fmt::format("{}: {}\n", name, value);
   }
   if (!description.empty())

@@ -2,8 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,30 +20,28 @@ namespace {
 
 std::string message_of(int error) { return std::generic_category().message(error); }
 
-// Standard input from one file, output to nowhere, errors to another.
-class Redirections {
- public:
-  Redirections(int input, int errors) {
-    ::posix_spawn_file_actions_init(&actions_);
-    ::posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
-    ::posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    ::posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
-  }
-  ~Redirections() { ::posix_spawn_file_actions_destroy(&actions_); }
-  Redirections(const Redirections&) = delete;
-  Redirections& operator=(const Redirections&) = delete;
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-};
+// Becomes the command, with standard input from one file, output to nowhere, errors to another. It ends with
+// the thread that started it, which waits for it: nobody would want what it makes any more. Between fork and
+// exec of a process with threads only what is safe in a signal handler may be called.
+[[noreturn]] void become(char* const words[], int input, int errors, int failure) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  ::dup2(input, STDIN_FILENO);
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::dup2(errors, STDERR_FILENO);
+  ::signal(SIGPIPE, SIG_DFL);
+  ::execvp(words[0], words);
+  const int why = errno;
+  [[maybe_unused]] const ssize_t told = ::write(failure, &why, sizeof why);
+  ::_exit(127);
+}
 
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& command) {
-  std::array<int, 2> pipe{-1, -1};
+  std::array<int, 2> pipe{-1, -1}, failure{-1, -1};
   words_ = ::memfd_create("words", MFD_CLOEXEC);
-  if (words_ < 0 || ::pipe2(pipe.data(), O_CLOEXEC) != 0) {
+  if (words_ < 0 || ::pipe2(pipe.data(), O_CLOEXEC) != 0 || ::pipe2(failure.data(), O_CLOEXEC) != 0) {
     problem_ = message_of(errno);
     return;
   }
@@ -52,11 +50,19 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command) {
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
-  const int failed = ::posix_spawnp(&process_, words[0], Redirections(pipe[0], words_).get(), nullptr,
-                                    words.data(), environ);
+  process_ = ::fork();
+  if (process_ == 0) become(words.data(), pipe[0], words_, failure[1]);
+  int failed = process_ < 0 ? errno : 0;
   ::close(pipe[0]);
+  ::close(failure[1]);
   input_ = pipe[1];
+  // Nothing is read where it became the command.
+  if (process_ > 0)
+    while (::read(failure[0], &failed, sizeof failed) < 0 && errno == EINTR) {
+    }
+  ::close(failure[0]);
   if (failed == 0) return;
+  if (process_ > 0) ::waitpid(process_, nullptr, 0);
   process_ = -1;
   problem_ = fmt::format("cannot start {}: {}", command[0], message_of(failed));
 }
@@ -89,12 +95,14 @@ bool ChildProcess::finish() {
   process_ = -1;
   const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0 && problem_.empty();
   if (good) return true;
+  was_killed_ = WIFSIGNALED(status);
   const std::string said = last_words();
-  if (!said.empty())
+  if (was_killed_)
+    problem_ = fmt::format("signal {} ended it", WTERMSIG(status));
+  else if (!said.empty())
     problem_ = said;
   else if (problem_.empty())
-    problem_ = WIFSIGNALED(status) ? fmt::format("signal {} ended it", WTERMSIG(status))
-                                   : fmt::format("it ended with status {}", WEXITSTATUS(status));
+    problem_ = fmt::format("it ended with status {}", WEXITSTATUS(status));
   return false;
 }
 

@@ -22,8 +22,10 @@ class ChildProcess {
   void write(std::span<const std::byte> bytes);
   // Closes its input and waits for its end. Whether it ended well; else problem() says why it did not.
   bool finish();
-  // In its own words, as far as it said any: the last line.
+  // In its own words, as far as it said any: the last line; when a signal ended it, that.
   const std::string& problem() const { return problem_; }
+  // Whether a signal ended it: what it said is no reason then.
+  bool was_killed() const { return was_killed_; }
   // All that it said.
   std::string words() const;
 
@@ -32,6 +34,7 @@ class ChildProcess {
 
   pid_t process_ = -1;
   int input_ = -1, words_ = -1;
+  bool was_killed_ = false;
   std::string problem_;
 };
 

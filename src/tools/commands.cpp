@@ -34,7 +34,9 @@ ExitStatus run(int argc, char** argv) {
     return ExitStatus::misuse;
   }
   try {
-    program.parse(argc, argv);
+    std::vector<std::string> words = words_of(program, {argv + 1, argv + std::max(argc, 1)});
+    std::reverse(words.begin(), words.end());  // as the parser takes them
+    program.parse(std::move(words));
   } catch (const CLI::Success& request) {
     program.exit(request);  // prints the help or version that was asked for
     return ExitStatus::done;

@@ -98,6 +98,14 @@ bool is_close(const CompareArguments& arguments, const PicturePair& pair, const 
   return close && agrees;
 }
 
+// What was asked for of light alone; empty: nothing.
+std::string_view light_kind(const CompareArguments& arguments) {
+  constexpr std::string_view of_light = "hdr-flip";
+  const bool wanted =
+      arguments.metric == of_light || (!arguments.map.empty() && arguments.map_of == of_light);
+  return wanted ? of_light : std::string_view();
+}
+
 ExitStatus fail_to_compare(const std::string& message) { return print_error(message), ExitStatus::problem; }
 
 ExitStatus run_compare(const CompareArguments& arguments) {
@@ -106,11 +114,18 @@ ExitStatus run_compare(const CompareArguments& arguments) {
   if (const std::string problem = map_problem(arguments); !problem.empty()) return fail_to_compare(problem);
   const std::optional<PicturePair> pair = read_pair(arguments.picture, arguments.reference);
   if (!pair) return ExitStatus::problem;
+  if (const std::string_view kind = light_kind(arguments); !kind.empty() && !pair->are_light)
+    return fail_to_compare(
+        fmt::format("{} compares light, of two .exr: ldr-flip compares what a display shows, and flip takes "
+                    "the one that suits the files",
+                    kind));
   ComparisonResult result;
   if (const std::string problem =
           with_memory("to compare the pictures", [&] { return measure(arguments, *pair, result); });
       !problem.empty())
     return fail_to_compare(problem);
+  if (arguments.significance && !pair->no_z_test.empty())
+    return fail_to_compare(fmt::format("--significance: {}", pair->no_z_test));
   if (arguments.significance && !result.z_test && result.main.not_finite == 0)
     return fail_to_compare(
         "--significance wants the variance of R, G and B in one of the pictures at least: render with "

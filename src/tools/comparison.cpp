@@ -11,6 +11,7 @@
 
 #include "image/flip.h"
 #include "image/outliers.h"
+#include "tools/identity.h"
 #include "tools/report.h"
 
 namespace tyndall::tools {
@@ -39,6 +40,40 @@ void warn_of_not_finite(const std::string& path, const Image& image) {
     print_warning(fmt::format("'{}' has {} {} not finite, the first is {}", path, count,
                               count == 1 ? "value that is" : "values that are",
                               image::first_not_finite(image)));
+}
+
+// A picture of grey as one of colours, where the other one has colours.
+void make_alike(Image& a, Image& b) {
+  const auto is_grey = [](const Image& image) { return image.channels == std::vector<std::string>{"Y"}; };
+  const auto has_colors = [](const Image& image) {
+    const std::vector<std::string> colors{"R", "G", "B"};
+    return std::all_of(colors.begin(), colors.end(), [&](const std::string& color) {
+      return std::find(image.channels.begin(), image.channels.end(), color) != image.channels.end();
+    });
+  };
+  for (const auto& [grey, other] : {std::pair(&a, &b), {&b, &a}}) {
+    if (!is_grey(*grey) || !has_colors(*other)) continue;
+    std::vector<float> colors;
+    for (const float value : grey->pixels) colors.insert(colors.end(), 3, value);
+    grey->channels = {"R", "G", "B"};
+    grey->pixels = std::move(colors);
+  }
+}
+
+// Why the noise of two pictures is not independent, or not told by their variances.
+std::string why_no_z_test(const image::ReadResult& picture, const image::ReadResult& reference) {
+  for (const image::ReadResult* read : {&picture, &reference}) {
+    const auto made = identity_from(metadata_entry(read->metadata, identity_entry));
+    const bool denoised =
+        (made && made->is_denoised()) ||
+        metadata_entry(read->metadata, developed_entry).find("denoise") != std::string::npos;
+    if (denoised) return "a picture was denoised, and its variance is that of the noise before";
+  }
+  const std::string seed = metadata_entry(picture.metadata, "tyndall:seed");
+  if (!seed.empty() && seed == metadata_entry(reference.metadata, "tyndall:seed"))
+    return fmt::format("both pictures have the random numbers of seed {}: render one with another --seed",
+                       seed);
+  return {};
 }
 
 // Of the layer without a name, R, G and B are the picture; each other channel, such as Z and A, is one by
@@ -86,6 +121,7 @@ std::optional<PicturePair> read_pair(const std::string& picture, const std::stri
                     picture, size, reference, other));
     return std::nullopt;
   }
+  make_alike(*a.image, *b.image);
   std::vector<image::Layer> layers = image::common_layers(*a.image, *b.image);
   if (layers.empty()) {
     print_error(fmt::format(
@@ -97,8 +133,9 @@ std::optional<PicturePair> read_pair(const std::string& picture, const std::stri
   std::stable_partition(layers.begin(), layers.end(),
                         [](const image::Layer& layer) { return layer.name.empty(); });
   part_colors(layers);
+  std::string no_z_test = why_no_z_test(a, b);
   PicturePair pair{std::move(*a.image), std::move(*b.image), std::move(layers),
-                   is_exr(picture) && is_exr(reference)};
+                   is_exr(picture) && is_exr(reference), std::move(no_z_test)};
   const std::vector<std::string> main = pair.main_channels();
   warn_of_not_finite(picture, image::with_channels(pair.picture, main));
   warn_of_not_finite(reference, image::with_channels(pair.reference, main));
@@ -128,7 +165,8 @@ ComparisonResult compare_pair(const PicturePair& pair) {
   result.psnr = result.main.psnr(pair.are_light ? result.main.reference_max : 1);
   result.outliers = image::share_of_outliers(picture);
   result.reference_outliers = image::share_of_outliers(reference);
-  if (result.main.not_finite == 0) result.z_test = image::z_test(pair.picture, pair.reference);
+  if (result.main.not_finite == 0 && pair.no_z_test.empty())
+    result.z_test = image::z_test(pair.picture, pair.reference);
   if (pair.layers[0].name.empty())
     for (std::size_t i = 1; i < pair.layers.size(); ++i)
       result.layers.emplace_back(pair.layers[i].name, compare_layer(pair, pair.layers[i]));

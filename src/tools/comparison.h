@@ -18,7 +18,8 @@ namespace tyndall::tools {
 struct PicturePair {
   image::Image picture, reference;
   std::vector<image::Layer> layers;
-  bool are_light = false;  // rather than what a display shows: both files are .exr
+  bool are_light = false;   // rather than what a display shows: both files are .exr
+  std::string no_z_test{};  // why a z-test would say nothing, whatever their variances; empty: it would
 
   // What is compared above all: the colours; of pictures that do not share any, all that they share.
   std::vector<std::string> main_channels() const;

@@ -126,11 +126,13 @@ class GoldenTest {
     return made_ ? read_decimal<std::uint64_t>(made_->setting("seed").value).value_or(0) + 1 : 1;
   }
 
-  // The seed and what is tested with it are meant to differ.
+  // The seed and what is tested with it are meant to differ; folders may, for what files in them hold is
+  // compared by itself.
   void note_what_changed() {
     if (!made_ || !rendered_.identity) return;
     PictureIdentity is = *rendered_.identity;
     for (const std::string_view name : {"seed", "aov"}) is.setting(name) = made_->setting(name);
+    is.include_directories = made_->include_directories;
     const std::vector<std::string> changes = differences(*made_, is);
     if (!changes.empty())
       result_.notes.push_back(fmt::format("since the reference was rendered: {}", fmt::join(changes, ", ")));
@@ -276,7 +278,9 @@ GoldenScenes find_golden_scenes(const std::vector<std::string>& paths, const std
       continue;
     }
     if (!fs::is_directory(path, failed)) {
-      found.problem = fmt::format("'{}' is neither a folder of scenes nor a scene (.tyn)", path);
+      found.problem = failed && failed != std::errc::no_such_file_or_directory
+                          ? fmt::format("cannot read '{}': {}", path, failed.message())
+                          : fmt::format("'{}' is neither a folder of scenes nor a scene (.tyn)", path);
       return found;
     }
     const std::size_t before = found.scenes.size();

@@ -33,6 +33,7 @@ enum class GoldenOutcome : std::uint8_t { passed, differs, problem, created, cha
 struct GoldenResult {
   GoldenScene golden;
   GoldenOutcome outcome = GoldenOutcome::problem;
+  bool tested = true;              // not where an interruption came before
   std::string message;             // what was found
   std::vector<std::string> notes;  // what else is to be known
   double seconds = 0;              // of rendering

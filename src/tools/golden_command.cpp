@@ -1,9 +1,13 @@
 // `tyndall golden`: scenes are rendered and compared with the pictures beside them.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -25,24 +29,57 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder of its own for pictures on the way, removed at the end.
+// A folder of its own for pictures on the way, removed at the end. It is locked meanwhile, so that those of
+// runs which were killed can be told, and are removed by the next one.
 class ScratchFolder {
  public:
   ScratchFolder() {
     std::error_code failed;
-    std::string pattern = (fs::temp_directory_path(failed) / "tyndall-golden-XXXXXX").string();
-    if (!failed && ::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
+    const fs::path all = fs::temp_directory_path(failed);
+    if (failed) return;
+    remove_abandoned(all);
+    std::string pattern = (all / (std::string(prefix) + "XXXXXX")).string();
+    if (::mkdtemp(pattern.data()) == nullptr) return;
+    path_ = pattern;
+    lock_ = locked(path_);
   }
   ~ScratchFolder() {
     std::error_code ignored;
     if (!path_.empty()) fs::remove_all(path_, ignored);
+    if (lock_ >= 0) ::close(lock_);
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   const std::string& path() const { return path_; }  // empty: there is none
 
  private:
+  static constexpr std::string_view prefix = "tyndall-golden-";
+
+  // A file that holds the lock; -1 where another process has it.
+  static int locked(const fs::path& folder) {
+    const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (file < 0 || ::flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+    ::close(file);
+    return -1;
+  }
+  // One that was made just now may not be locked yet.
+  static void remove_abandoned(const fs::path& all) {
+    constexpr auto enough = std::chrono::minutes(1);
+    std::error_code ignored;
+    for (fs::directory_iterator at(all, ignored), end; !ignored && at != end; at.increment(ignored)) {
+      if (!at->path().filename().string().starts_with(prefix)) continue;
+      std::error_code unknown;
+      const auto changed = fs::last_write_time(at->path(), unknown);
+      if (unknown || fs::file_time_type::clock::now() - changed < enough) continue;
+      const int lock = locked(at->path());
+      if (lock < 0) continue;
+      fs::remove_all(at->path(), unknown);
+      ::close(lock);
+    }
+  }
+
   std::string path_;
+  int lock_ = -1;
 };
 
 std::string line_of(const GoldenResult& result) {
@@ -72,7 +109,7 @@ class InOrder {
 };
 
 // As many scenes at a time as there are threads; where there are fewer scenes, each gets several. Those that
-// an interruption left out are missing in the end.
+// an interruption left out are a problem, so that no report looks as if all had been tested.
 std::vector<GoldenResult> run_all(const GoldenArguments& arguments, const std::vector<GoldenScene>& scenes,
                                   const std::string& directory) {
   const std::atomic<bool>& interrupted = catch_interrupts();
@@ -86,8 +123,15 @@ std::vector<GoldenResult> run_all(const GoldenArguments& arguments, const std::v
     if (!interrupted) printer.put(i, std::move(result));
   });
   std::vector<GoldenResult> results;
-  for (std::optional<GoldenResult>& result : found)
-    if (result) results.push_back(std::move(*result));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (!found[i]) {
+      GoldenResult& result = found[i].emplace();
+      result.golden = scenes[i];
+      result.tested = false;
+      result.message = "it was not tested, for an interruption came before";
+    }
+    results.push_back(std::move(*found[i]));
+  }
   return results;
 }
 
@@ -184,9 +228,10 @@ ExitStatus run_golden_tests(const GoldenArguments& arguments) {
   if (!arguments.json) print_result(fmt::format("{}\n", machine));
   const std::vector<GoldenResult> results = run_all(arguments, found.scenes, scratch.path());
   const ExitStatus status = tell(arguments, results, machine);
-  if (results.size() == found.scenes.size()) return status;
-  print_error(fmt::format("interrupted: {} of {} scenes were not tested",
-                          found.scenes.size() - results.size(), found.scenes.size()));
+  const auto untested = std::count_if(results.begin(), results.end(),
+                                      [](const GoldenResult& result) { return !result.tested; });
+  if (untested == 0) return status;
+  print_error(fmt::format("interrupted: {} of {} scenes were not tested", untested, results.size()));
   return ExitStatus::interrupted;
 }
 

@@ -33,13 +33,33 @@ std::string option_value(const Setting& setting) {
                                                : setting.value;
 }
 
-// The options that the picture was made with.
+// A folder of --include that the picture was made with, wherever golden is started: if it is not in the
+// current folder, in that of the scene, or above it.
+std::string found_include(const std::string& directory, const std::string& scene) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (fs::is_directory(directory, ignored) || fs::path(directory).is_absolute()) return directory;
+  fs::path above = fs::absolute(scene, ignored).parent_path();
+  for (; above.has_relative_path(); above = above.parent_path())
+    if (fs::is_directory(above / directory, ignored)) return (above / directory).string();
+  return directory;
+}
+
+// Those of the command line, or where it has none, those that the picture was made with.
+std::vector<std::string> includes_of(const GoldenArguments& arguments, const std::string& scene,
+                                     const std::optional<PictureIdentity>& made) {
+  if (!arguments.include_directories.empty() || !made) return arguments.include_directories;
+  std::vector<std::string> directories;
+  for (const std::string& directory : made->include_directories)
+    directories.push_back(found_include(directory, scene));
+  return directories;
+}
+
+// The options that the picture was made with, but for --include.
 std::vector<std::string> options_of(const PictureIdentity& made, bool with_seed) {
   std::vector<std::string> options{"--frame", fmt::format("{}", made.frame)};
   for (const auto& [name, value] : made.overrides)
     options.insert(options.end(), {"--set", fmt::format("{}={}", name, value)});
-  for (const std::string& directory : made.include_directories)
-    options.insert(options.end(), {"--include", directory});
   for (const Setting& setting : made.settings) {
     if (setting.value == setting.scene_value || setting.name == "aov" ||
         (setting.name == "seed" && !with_seed))
@@ -82,7 +102,7 @@ RenderedPicture render_like(const GoldenArguments& arguments, const std::string&
   if (wants_variance || !aovs.empty())
     command.insert(command.end(), {"--aov", wants_variance ? aovs_with_variance(aovs) : aovs});
   if (seed) command.insert(command.end(), {"--seed", fmt::format("{}", *seed)});
-  for (const std::string& directory : arguments.include_directories)
+  for (const std::string& directory : includes_of(arguments, scene, made))
     command.insert(command.end(), {"--include", directory});
   if (arguments.allow_outside) command.emplace_back("--allow-outside");
 
@@ -93,7 +113,7 @@ RenderedPicture render_like(const GoldenArguments& arguments, const std::string&
   const bool good = child.finish();
   rendered.seconds = watch.lap();
   if (!good) {
-    rendered.problem = child.words();
+    if (!child.was_killed()) rendered.problem = child.words();
     if (rendered.problem.empty()) rendered.problem = fmt::format("rendering failed: {}", child.problem());
     return rendered;
   }

@@ -29,8 +29,11 @@ struct MeasureArguments {
   MeasureGoals goals;
   std::optional<double> reference_error;
   std::string reference, keep, output;
-  bool csv = false;
+  bool csv = false, features = false;
 };
+
+// No process is ready sooner [s].
+constexpr double least_budget = 1e-3;
 
 // "90s", "10min", "1h".
 std::optional<double> read_duration(std::string_view text) {
@@ -38,7 +41,7 @@ std::optional<double> read_duration(std::string_view text) {
   for (const auto& [unit, seconds] : units) {
     if (!text.ends_with(unit)) continue;
     const auto number = read_decimal<double>(text.substr(0, text.size() - unit.size()));
-    return number && *number > 0 ? std::optional(*number * seconds) : std::nullopt;
+    return number && *number * seconds >= least_budget ? std::optional(*number * seconds) : std::nullopt;
   }
   return std::nullopt;
 }
@@ -125,12 +128,59 @@ void warn_of_idle_sweeps(const std::vector<MeasuredSetting>& settings, const sce
   }
 }
 
+// Prints the report and writes the page.
+ExitStatus tell(const MeasureArguments& arguments, const MeasureReport& report, const scene::Scene& scene,
+                const Measuring* measuring, bool interrupted) {
+  print_report(arguments, report);
+  if (!arguments.output.empty())
+    if (const std::string problem = write_page(arguments.output, report, scene, measuring); !problem.empty())
+      return fail_to_measure(problem);
+  if (!report.complete && !arguments.base.quiet) {
+    const std::string kept = measuring != nullptr ? kept_file(arguments) : std::string();
+    print_message(fmt::format(
+        "not all is measured: {}; a smaller --resolution takes less time\n",
+        measuring == nullptr ? "a longer --budget goes further"
+        : kept.empty()       ? "a longer --budget goes further, and --keep FILE lets the same command go on"
+                             : fmt::format("the same command goes on from '{}'", kept)));
+  }
+  return interrupted ? ExitStatus::interrupted : ExitStatus::done;
+}
+
+ReportRequest report_request(const MeasureArguments& arguments) {
+  return {arguments.base.scene.path, arguments.reference, arguments.base.threads, arguments.goals.seeds};
+}
+
+// Whether settings are measured: without --features always.
+bool measures_settings(const MeasureArguments& arguments) {
+  return !arguments.features || !arguments.sweeps.empty();
+}
+
+// What features cost, if that is asked for; a message, or an empty string.
+std::string add_feature_costs(const MeasureArguments& arguments, LoadedScene& loaded,
+                              const std::atomic<bool>& stop, MeasureReport& report) {
+  std::string problem;
+  if (!arguments.features || stop) return problem;
+  report.feature_costs = measure_features({loaded.scene, arguments.base, arguments.goals.seeds,
+                                           arguments.goals.budget_seconds, arguments.base.quiet},
+                                          stop, problem);
+  report.complete = report.complete && report.feature_costs.complete;
+  return problem;
+}
+
 // Measures, and tells of it what is known at the end.
 ExitStatus measure_scene(const MeasureArguments& arguments, const std::vector<MeasuredSetting>& settings,
                          LoadedScene& loaded) {
-  const nlohmann::json facts = facts_of_scene(arguments, loaded);
   scene::RenderSettings common = loaded.scene.settings;
   apply(arguments.base.settings, common);
+  const std::atomic<bool>& stop = catch_interrupts();
+  if (!measures_settings(arguments)) {
+    MeasureReport report = empty_report(report_request(arguments), loaded.scene, common);
+    report.complete = true;
+    if (const std::string problem = add_feature_costs(arguments, loaded, stop, report); !problem.empty())
+      return fail_to_measure(problem);
+    return tell(arguments, report, loaded.scene, nullptr, stop);
+  }
+  const nlohmann::json facts = facts_of_scene(arguments, loaded);
   const auto [width, height] = common.resolution;
   GivenReference given;
   if (!arguments.reference.empty()) given = read_reference(arguments.reference, width, height);
@@ -143,23 +193,12 @@ ExitStatus measure_scene(const MeasureArguments& arguments, const std::vector<Me
     print_warning(fmt::format("'{}' has measurements of something else, which are dropped: other {}", kept,
                               measurements.replaced()));
   Measuring measuring(loaded.scene, settings, arguments.goals, std::move(given.reference), measurements);
-  const std::atomic<bool>& stop = catch_interrupts();
   if (const std::string problem = measuring.run(stop, arguments.base.quiet); !problem.empty())
     return fail_to_measure(problem);
-  const ReportRequest request{arguments.base.scene.path, arguments.reference, arguments.base.threads,
-                              arguments.goals.seeds};
-  const MeasureReport report = full_report(request, loaded.scene, common, measuring);
-  print_report(arguments, report);
-  if (!arguments.output.empty())
-    if (const std::string problem = write_page(arguments.output, report, loaded.scene, measuring);
-        !problem.empty())
-      return fail_to_measure(problem);
-  if (!report.complete && !arguments.base.quiet)
-    print_message(fmt::format(
-        "not all is measured: {}; a smaller --resolution takes less time\n",
-        kept.empty() ? "a longer --budget goes further, and --keep FILE lets the same command go on"
-                     : fmt::format("the same command goes on from '{}'", kept)));
-  return stop ? ExitStatus::interrupted : ExitStatus::done;
+  MeasureReport report = full_report(report_request(arguments), loaded.scene, common, measuring);
+  if (const std::string problem = add_feature_costs(arguments, loaded, stop, report); !problem.empty())
+    return fail_to_measure(problem);
+  return tell(arguments, report, loaded.scene, &measuring, stop);
 }
 
 ExitStatus run_measure(const MeasureArguments& arguments) {
@@ -169,6 +208,10 @@ ExitStatus run_measure(const MeasureArguments& arguments) {
     return misuse(fmt::format("measure writes a page, -o OUT.html, not '{}'", arguments.output));
   if (arguments.csv && arguments.base.json)
     return misuse("measure prints its results as --json or as --csv, not both: give one");
+  if (arguments.csv && arguments.features && !arguments.sweeps.empty())
+    return misuse("--csv prints one table, of the settings of --sweep or of --features: leave one of them");
+  if (!arguments.base.aovs.empty() && !arguments.features)
+    return misuse("--aov is for --features, which measures what output channels cost: give both or neither");
   FilesInUse files;
   if (const std::string problem = file_problem(arguments, files); !problem.empty())
     return fail_to_measure(problem);
@@ -202,7 +245,8 @@ void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
   add_text_option(command, "--budget", "TIME", "How long to measure, for instance 90s or 10min, the default",
                   [&arguments](const std::string& text) {
                     const auto seconds = read_duration(text);
-                    if (!seconds) refuse("--budget", "a time such as 90s, 10min or 1h", text);
+                    if (!seconds)
+                      refuse("--budget", "a time such as 90s, 10min or 1h, at least 0.001s", text);
                     arguments.goals.budget_seconds = *seconds;
                   });
   command
@@ -219,11 +263,20 @@ void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
       ->option_text("FILE");
 }
 
+void add_feature_options(CLI::App& command, MeasureArguments& arguments) {
+  command.add_flag(
+      "--features", arguments.features,
+      "Measure what each feature of the scene costs: render it without motion blur, each medium, "
+      "each light, and so on");
+  add_output_option(command, arguments.base.aovs);
+}
+
 Action measure_options(CLI::App& command) {
   const auto arguments = std::make_shared<MeasureArguments>();
   RenderArguments& base = arguments->base;
   command.add_option("scene", base.scene.path, "The scene to measure")->required()->option_text("SCENE");
   add_measure_options(command, *arguments);
+  add_feature_options(command, *arguments);
   command.add_option("-o,--output", arguments->output, "Write a page with plots and pictures")
       ->option_text("OUT.html");
   add_scene_options(command, base.scene);

@@ -73,10 +73,33 @@ void refuse_empty_values(CLI::App& program) {
   for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
     for (CLI::Option* option : command->get_options()) {
       if (option->get_items_expected_max() == 0) continue;
+      // Else the parser would take the brackets of '[a]' off.
+      if (!option->get_positional()) option->allow_extra_args(false);
       option->check([name = option->get_name()](const std::string& value) {
         return value.empty() ? fmt::format("wants {}, not ''", wanted_by(name)) : std::string{};
       });
     }
+}
+
+std::vector<std::string> words_of(const CLI::App& program, std::span<char* const> arguments) {
+  std::vector<std::string> words;
+  const CLI::App* command = nullptr;
+  bool is_value = false;
+  for (std::string word : arguments) {
+    const bool in_brackets = word.size() > 1 && word.front() == '[' && word.back() == ']';
+    if (command == nullptr) {
+      for (const CLI::App* one : program.get_subcommands([](const CLI::App*) { return true; }))
+        if (one->get_name() == word) command = one;
+    } else if (!is_value) {
+      const CLI::Option* option = word.starts_with('-') ? command->get_option_no_throw(word) : nullptr;
+      is_value = option != nullptr && option->get_items_expected_max() > 0;
+      if (in_brackets) word.insert(0, "./");
+    } else {
+      is_value = false;
+    }
+    words.push_back(std::move(word));
+  }
+  return words;
 }
 
 std::string misjoined_value(std::span<char* const> arguments) {

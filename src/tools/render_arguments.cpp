@@ -91,21 +91,7 @@ void add_goal_options(CLI::App& command, RenderArguments& arguments) {
   // Parts of a picture that are put together later must not each decide when they are good enough.
   for (CLI::Option* goal : {error, time_limit})
     for (const char* part : {"--crop", "--sample-range"}) goal->excludes(command.get_option(part));
-  command
-      .add_option_function<std::string>(
-          "--aov",
-          [&arguments](const std::string& text) {
-            for (std::size_t begin = 0; begin <= text.size();) {
-              const std::size_t end = std::min(text.find(',', begin), text.size());
-              const std::string_view name = std::string_view(text).substr(begin, end - begin);
-              const auto aov = render::aov_of_name(name);
-              if (!aov) refuse_name("--aov", aov_names(), name);
-              arguments.aovs.add(*aov);
-              begin = end + 1;
-            }
-          },
-          fmt::format("Write more channels into an .exr: {}", fmt::join(aov_names(), " ")))
-      ->option_text("A,B");
+  add_output_option(command, arguments.aovs);
   command.add_flag("--denoise", arguments.denoise,
                    "Denoise the picture; an .exr keeps the undenoised one as noisy.R, noisy.G, noisy.B");
 }
@@ -148,6 +134,24 @@ render::PixelWindow read_window(const WholeOption& option, const std::string& te
   const auto [x0, y0, x1, y1] = read_wholes<int, 4>(option, text);
   if (x1 <= x0 || y1 <= y0) refuse(option.name, "X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1", text);
   return {x0, y0, x1, y1};
+}
+
+void add_output_option(CLI::App& command, render::AovSet& aovs) {
+  command
+      .add_option_function<std::string>(
+          "--aov",
+          [&aovs](const std::string& text) {
+            for (std::size_t begin = 0; begin <= text.size();) {
+              const std::size_t end = std::min(text.find(',', begin), text.size());
+              const std::string_view name = std::string_view(text).substr(begin, end - begin);
+              const auto aov = render::aov_of_name(name);
+              if (!aov) refuse_name("--aov", aov_names(), name);
+              aovs.add(*aov);
+              begin = end + 1;
+            }
+          },
+          fmt::format("Write more channels into an .exr: {}", fmt::join(aov_names(), " ")))
+      ->option_text("A,B");
 }
 
 void add_method_options(CLI::App& command, RenderArguments& arguments) {

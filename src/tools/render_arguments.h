@@ -50,6 +50,8 @@ struct RenderArguments {
 // Adds every option of the command, each with its check: a value that cannot be is misuse of the command
 // line.
 void add_render_options(CLI::App& command, RenderArguments& arguments);
+// Of them --aov.
+void add_output_option(CLI::App& command, render::AovSet& aovs);
 // Of them those for experts: how light is sampled in media.
 void add_method_options(CLI::App& command, RenderArguments& arguments);
 

@@ -1,7 +1,8 @@
 // The statistics of a run as JSON: `--stats` and `--json`.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tools/run_report.h"
@@ -10,11 +11,14 @@
 namespace tyndall::tools {
 namespace {
 
-// Largest resident size of the process so far [bytes].
+// Largest resident size of the program so far [bytes]. getrusage() would count what started it, too, from
+// before it became this program.
 std::uint64_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  constexpr std::string_view name = "VmHWM:";
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(name)) return 1024 * std::strtoull(line.c_str() + name.size(), nullptr, 10);
+  return 0;
 }
 
 std::string_view kind_name(render::BadValue::Kind kind) {

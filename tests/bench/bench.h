@@ -68,6 +68,10 @@ bool write_sampling_pictures();
 // have `part` in them. False when a scene cannot be read.
 bool bench_default_steps(std::string_view part);
 
+// Prints docs/extremes.md, or the tables of those scenes of tests/extremes whose names have `part` in them.
+// False when a case is not as it should be.
+bool bench_extremes(std::string_view part);
+
 // Prints docs/verification.md. False when a line fails.
 bool print_verification();
 

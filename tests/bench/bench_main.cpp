@@ -1,6 +1,6 @@
 // tyndall-bench [NAME|list] [SECONDS]: how fast things are, by hand; no test. Exits with 1 when a target is
-// missed. `errors`, `denoise`, `sampling`, `default-steps`, `pepper` and `quality` take a part of a scene's
-// name instead of seconds.
+// missed. `errors`, `denoise`, `sampling`, `default-steps`, `pepper`, `quality` and `extremes` take a part of
+// a scene's name instead of seconds.
 #include <fmt/format.h>
 
 #include <array>
@@ -33,6 +33,7 @@ constexpr std::array benchmarks{
     Benchmark{"bounds", true, [](const Asked& asked) { return bench_bounds(asked.seconds); }},
     Benchmark{"lights", true, [](const Asked&) { return bench_lights(); }},
     Benchmark{"errors", false, [](const Asked& asked) { return bench_errors(asked.part); }},
+    Benchmark{"extremes", false, [](const Asked& asked) { return bench_extremes(asked.part); }},
     Benchmark{"denoise", false, [](const Asked& asked) { return bench_denoise(asked.part); }},
     Benchmark{"fire", false, [](const Asked&) { return bench_fire(); }},
     Benchmark{"hair", false, [](const Asked&) { return bench_hair(); }},
@@ -62,7 +63,7 @@ int main(int argc, char** argv) {
   if (argc > 2) asked = {std::atof(argv[2]), argv[2]};
   bool known = false, good = true;
   if (asked.seconds > 0 || what == "errors" || what == "denoise" || what == "sampling" ||
-      what == "default-steps" || what == "pepper" || what == "quality")
+      what == "default-steps" || what == "pepper" || what == "quality" || what == "extremes")
     for (const Benchmark& benchmark : benchmarks)
       if (what == benchmark.name || (what == "all" && benchmark.in_all)) {
         known = true;

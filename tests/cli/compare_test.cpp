@@ -122,15 +122,58 @@ TEST_F(Compare, ZTestsTellNoiseFromChange) {
   const std::string a = render("a.exr", {"--aov", "variance"}),
                     b = render("b.exr", {"--aov", "variance", "--seed", "1"}),
                     thicker = render("c.exr", {"--aov", "variance", "--seed", "2", "--set", "thickness=12"}),
-                    plain = render("d.exr", {});
+                    plain = render("d.exr", {}), other = render("e.exr", {"--seed", "3"});
   EXPECT_EQ(tyndall({"compare", a, b, "--significance", "0.001"}).status, 0);
   const Outcome far = tyndall({"compare", thicker, a, "--significance", "0.001"});
   EXPECT_EQ(far.status, 3);
   EXPECT_NE(far.err.find("standard errors away"), std::string::npos) << far.err;
-  const Outcome none = tyndall({"compare", plain, plain, "--significance", "0.001"});
+  const Outcome none = tyndall({"compare", plain, other, "--significance", "0.001"});
   EXPECT_EQ(none.status, 1);
   EXPECT_NE(none.err.find("--aov variance"), std::string::npos) << none.err;
   EXPECT_EQ(tyndall({"compare", a, b, "--significance", "1"}).status, 2);
+}
+
+TEST_F(Compare, GreyIsComparedWithColours) {
+  const std::string y = write("y.png", flat({{"Y", 0.5f}})), rgb = write("rgb.png", grey(0.5f));
+  for (const auto& [a, b] : {std::pair(y, rgb), {rgb, y}}) {
+    EXPECT_EQ(compare(a, b)["mse"], 0);
+    EXPECT_EQ(compare(a, b)["flip"], 0);
+  }
+  const std::string red = write("red.png", flat({{"R", 0.5f}, {"G", 0}, {"B", 0}}));
+  EXPECT_GT(compare(red, y)["mse"], 0.05);
+}
+
+TEST_F(Compare, HdrFlipIsOfLight) {
+  const std::string png = write("a.png", grey(0.5f)), exr = write("b.exr", grey(1));
+  for (const std::string& other : {png, exr}) {
+    const Outcome outcome = tyndall({"compare", png, other, "--metric", "hdr-flip"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("ldr-flip compares what a display shows"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(tyndall({"compare", png, exr, "--map-of", "hdr-flip", "--map", path("map.png")}).status, 1);
+  EXPECT_EQ(tyndall({"compare", exr, exr, "--metric", "hdr-flip"}).status, 0);
+}
+
+TEST_F(Compare, NoiseThatIsNotIndependentIsNotTested) {
+  const std::string scene = file("scene.tyn", small_scene());
+  const auto rendered = [&](const std::string& name, std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"render", scene, "-o", path(name), "--aov", "variance", "--samples", "8", "--quiet"});
+    EXPECT_EQ(tyndall(options).status, 0);
+    return path(name);
+  };
+  const std::string a = rendered("a.exr", {}), b = rendered("b.exr", {"--samples", "16"}),
+                    c = rendered("c.exr", {"--seed", "1"}),
+                    smooth = rendered("d.exr", {"--seed", "2", "--denoise"});
+  EXPECT_TRUE(compare(a, c).contains("z_test"));
+  EXPECT_FALSE(compare(a, b).contains("z_test"));
+  EXPECT_FALSE(compare(a, smooth).contains("z_test"));
+  const Outcome same = tyndall({"compare", a, b, "--significance", "0.001"});
+  EXPECT_EQ(same.status, 1);
+  EXPECT_NE(same.err.find("random numbers of seed 0"), std::string::npos) << same.err;
+  const Outcome denoised = tyndall({"compare", smooth, a, "--significance", "0.001"});
+  EXPECT_EQ(denoised.status, 1);
+  EXPECT_NE(denoised.err.find("denoised"), std::string::npos) << denoised.err;
 }
 
 }  // namespace UNNAMED

@@ -1,7 +1,10 @@
 // `tyndall golden`: scenes with their references, as people test theirs.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "cli/run_program.h"
 #include "image/image.h"
@@ -169,6 +172,113 @@ TEST_F(Golden, OtherSizesAreTold) {
   const Outcome outcome = golden();
   EXPECT_EQ(outcome.status, 3);
   expect_told(outcome.out, {"the picture is 20x16, its reference 24x16"});
+}
+
+TEST_F(Golden, IncludedFoldersAreFoundFromAnywhere) {
+  fs::create_directories(path("lib"));
+  file("lib/thick.tyn", "let thick = 0.8\n");
+  fs::create_directories(path("tests"));
+  file("tests/a.tyn", R"(include "thick.tyn"
+render { resolution: (8, 6)  samples: 4 }
+camera perspective { from: (0, 0, 5)  to: (0, 0, 0) }
+volume { in: sphere {}  medium: { density = thick  albedo = 0.5 } }
+light environment { radiance: 0.5 }
+)");
+  const fs::path before = fs::current_path();
+  fs::current_path(path("."));
+  const Outcome made = tyndall({"golden", "tests", "--include", "lib", "--update"});
+  EXPECT_EQ(made.status, 0) << made.out;
+  fs::current_path(path("tests"));
+  const Outcome below = tyndall({"golden", "."});
+  EXPECT_EQ(below.status, 0) << below.out;
+  const Outcome given = tyndall({"golden", ".", "--include", "../lib"});
+  EXPECT_EQ(given.status, 0) << given.out;
+  EXPECT_EQ(given.out.find("--include has changed"), std::string::npos) << given.out;
+  fs::current_path(before);
+}
+
+// A scene that takes long, and warns before.
+constexpr const char* slow_scene = R"(render { resolution: (64, 48)  samples: 100000 }
+camera perspective { from: (0, 0, 5)  to: (0, 0, 0) }
+let _unused = 1
+volume { in: sphere {}  medium: { density = 5  albedo = 0.9 } }
+light environment { radiance: 0.5 }
+)";
+
+// The processes that were started with this word, other than this one.
+std::vector<pid_t> processes_of(const std::string& word) {
+  std::vector<pid_t> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator("/proc", ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::string command = read_file((entry.path() / "cmdline").string());
+    if (command.find(word) != std::string::npos && command.find("render") != std::string::npos)
+      found.push_back(static_cast<pid_t>(std::stol(name)));
+  }
+  return found;
+}
+bool soon(const std::function<bool()>& holds) {
+  for (int i = 0; i < 1000; ++i) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
+TEST_F(Golden, AKilledRenderIsToldAsThat) {
+  fs::create_directories(path("tests"));
+  const std::string scene = file("tests/slow.tyn", slow_scene);
+  std::thread killer([&] {
+    EXPECT_TRUE(soon([&] {
+      const std::vector<pid_t> renders = processes_of(scene);
+      for (const pid_t process : renders) ::kill(process, SIGKILL);
+      return !renders.empty();
+    }));
+  });
+  const Outcome outcome = golden({"--update"});
+  killer.join();
+  EXPECT_EQ(outcome.status, 1);
+  expect_told(outcome.out, {"problem", "signal 9 ended it"});
+}
+
+TEST_F(Golden, AnInterruptionShowsInReports) {
+  fs::create_directories(path("tests"));
+  // The render that runs is waited for.
+  std::string text = slow_scene;
+  text.replace(text.find("100000"), 6, "300");
+  const std::string scene = file("tests/slow.tyn", text);
+  RunOptions options;
+  options.interrupt_after_seconds = 0.1;
+  options.wait_for = [&] { return !processes_of(scene).empty(); };
+  const Outcome outcome =
+      tyndall({"golden", path("tests"), "--update", "--junit", path("out.xml"), "--threads", "1"}, options);
+  EXPECT_EQ(outcome.status, 130);
+  expect_told(outcome.err, {"1 of 1 scenes were not tested"});
+  expect_told(read_file(path("out.xml")), {"tests=\"1\" failures=\"0\" errors=\"1\"", "interruption"});
+}
+
+TEST_F(Golden, WhatAKilledRunLeftIsRemoved) {
+  fs::create_directories(path("tests"));
+  fs::create_directories(path("tmp"));
+  const std::string scene = file("tests/slow.tyn", slow_scene);
+  RunOptions options;
+  options.interrupt_after_seconds = 0.05;
+  options.signal = SIGKILL;
+  options.wait_until_caught = false;
+  options.wait_for = [&] { return !processes_of(scene).empty(); };
+  options.environment = {"TMPDIR=" + path("tmp")};
+  EXPECT_EQ(tyndall({"golden", path("tests"), "--update"}, options).status, 128 + SIGKILL);
+  EXPECT_TRUE(soon([&] { return processes_of(scene).empty(); })) << "renders end with what started them";
+  ASSERT_FALSE(fs::is_empty(path("tmp")));
+  for (const auto& folder : fs::directory_iterator(path("tmp")))
+    fs::last_write_time(folder.path(), fs::file_time_type::clock::now() - std::chrono::hours(1));
+  fs::remove(scene);
+  this->scene("fast.tyn");
+  RunOptions quiet;
+  quiet.environment = options.environment;
+  EXPECT_EQ(tyndall({"golden", path("tests"), "--update"}, quiet).status, 0);
+  EXPECT_TRUE(fs::is_empty(path("tmp")));
 }
 
 }  // namespace UNNAMED

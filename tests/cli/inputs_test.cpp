@@ -66,5 +66,59 @@ TEST_F(Inputs, ComparedPicturesArePlainFiles) {
   }
 }
 
+// Any name that a file may have, for the files of all commands.
+TEST_F(Inputs, NamesOfFilesAreTakenAsTheyAre) {
+  for (const char* name : {"[x].tyn", "[x]", "[a,b]", "a b.tyn", "%s.tyn", "x=y.tyn", "'q'.tyn"}) {
+    const std::string scene = file(name, small_scene());
+    const auto good = [&](const std::vector<std::string>& words) {
+      const Outcome outcome = tyndall(words);
+      EXPECT_EQ(outcome.status, 0) << words[0] << " " << name << "\n" << outcome.err;
+    };
+    good({"check", scene, scene});
+    good({"format", scene});
+    good({"inspect", "--stage", "tree", scene});
+    good({"render", scene, "-o", path("out.exr"), "--quiet"});
+    EXPECT_TRUE(std::filesystem::exists(scene));
+  }
+  // Relative ones, which brackets begin.
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(path("."));
+  EXPECT_EQ(tyndall({"check", "[x]"}).status, 0);
+  EXPECT_EQ(tyndall({"format", "[a,b]", "[x]"}).status, 0);
+  EXPECT_EQ(tyndall({"render", "[a,b]", "-o", "[c].exr", "--quiet"}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists("[c].exr"));
+  EXPECT_EQ(tyndall({"render", "[a,b]", "-o", "[c].tynpart", "--quiet"}).status, 0);
+  std::filesystem::rename("[c].tynpart", "[c]");
+  EXPECT_EQ(tyndall({"merge", "[c]", "-o", "d.exr"}).status, 0);
+  std::filesystem::create_directory("[d]");
+  std::filesystem::copy_file("[x].tyn", "[d]/a.tyn");
+  EXPECT_EQ(tyndall({"golden", "[d]", "--update"}).status, 0);
+  EXPECT_EQ(tyndall({"check", "[x]", "--include", "[d]"}).status, 0);
+  std::filesystem::current_path(before);
+}
+
+TEST_F(Inputs, NamesThatAreTooLongAreToldAsThat) {
+  const std::string name(300, 'x');
+  const std::string scene = file("scene.tyn", small_scene());
+  const std::vector<std::vector<std::string>> commands = {
+      {"check", path(name + ".tyn")},
+      {"format", path(name + ".tyn")},
+      {"render", path(name + ".tyn"), "-o", path("out.exr")},
+      {"render", scene, "-o", path(name + ".exr")},
+      {"render", scene, "-o", path("out.exr"), "--stats", path(name + ".json")},
+      {"compare", path(name + ".exr"), path(name + ".png")},
+      {"develop", path(name + ".exr"), "-o", path("out.png")},
+      {"sheet", path(name + ".png"), "-o", path("out.png")},
+      {"golden", path(name)},
+      {"golden", path(name + ".tyn")},
+      {"measure", scene, "-o", path(name + ".html")},
+  };
+  for (const auto& command : commands) {
+    const Outcome outcome = tyndall(command);
+    EXPECT_EQ(outcome.status, 1) << command[0];
+    EXPECT_NE(outcome.err.find("File name too long"), std::string::npos) << command[0] << "\n" << outcome.err;
+  }
+}
+
 }  // namespace UNNAMED
 }  // namespace tyndall::test

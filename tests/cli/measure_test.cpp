@@ -204,6 +204,11 @@ TEST_F(Measure, WhatCannotBeMeasuredIsToldWithAWayOut) {
       {{"--sweep", "seed=1,2"}, 2, "--seeds N"},
       {{"--seeds", "1"}, 2, "a whole number from 2"},
       {{"--budget", "10"}, 2, "a time such as 90s, 10min or 1h"},
+      {{"--budget", "1e-9s"}, 2, "at least 0.001s"},
+      {{"--sweep", "step=1,0.5,1"}, 2, "step=1 twice"},
+      {{"--sweep", "quiet=1"}, 2, "quiet"},
+      {{"--aov", "depth"}, 2, "--features"},
+      {{"--features", "--sweep", "step=1", "--csv"}, 2, "--csv prints one table"},
       {{"--json", "--csv"}, 2, "--csv"},
       {{"-o", "page.txt"}, 2, "-o OUT.html"},
       {{"-o", "none/page.html"}, 1, "none"},
@@ -232,6 +237,56 @@ TEST_F(Measure, CtrlCTellsWhatIsKnown) {
                                   options);
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_FALSE(json::parse(outcome.out)["complete"]);
+}
+
+// A scene with one of each thing that can be taken out.
+constexpr const char* much = R"(render { resolution: (16, 12)  samples: 4 }
+animation { fps: 24  frames: 0..1  shutter: 180deg }
+camera perspective { from: (0, 0, 5 + time)  to: (0, 0, 0)  aperture: 0.1 }
+medium thick() { density = 3 * smoothstep(1, 0, length(p))  albedo = 0.9 }
+medium thin() { density = 0.1  albedo = 0.5 }
+volume { in: sphere { center: (time * 10, 0, 0) }  medium: thick }
+volume { in: box { min: (-3, -3, -3)  max: (3, 3, 3) }  medium: thin }
+light sphere { center: (2, 2, 2)  radius: 0.2  power: 50 }
+light point { position: (-2, 2, 2)  power: 50 }
+light point { position: (-2, -2, 2)  power: 50 }
+light environment { radiance: 0.1 }
+)";
+
+TEST_F(Measure, EachFeatureIsTakenOut) {
+  const std::string scene = file("much.tyn", much), page = path("page.html");
+  const json report = measured({scene, "--features", "--seeds", "3", "--aov", "depth,albedo", "-o", page});
+  EXPECT_TRUE(report["settings"].empty());
+  EXPECT_TRUE(report["complete"]);
+  std::vector<std::string> names;
+  for (const json& row : report["feature_costs"]) {
+    names.push_back(row["without"]);
+    EXPECT_EQ(row["runs"], 3);
+    EXPECT_GT(row["cpu_seconds"], 0);
+    EXPECT_GT(row["peak_memory_bytes"], 1e6);
+    EXPECT_EQ(row.contains("time_share"), !names.back().empty());
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "", "motion blur", "all 2 media", "medium thick", "medium thin", "light environment",
+                       "light point, all 2", "light point, number 1", "light point, number 2", "light sphere",
+                       "depth of field", "output channel depth", "output channel albedo"}));
+  // The media are nearly all that there is.
+  EXPECT_GT(report["feature_costs"][2]["time_share"]["value"], 0.3) << report.dump();
+  const std::string html = read_file(page);
+  EXPECT_NE(html.find("id=\"costs\""), std::string::npos);
+  EXPECT_NE(html.find("without medium thick"), std::string::npos);
+  const Outcome csv = tyndall({"measure", scene, "--features", "--seeds", "2", "--csv", "--quiet"});
+  EXPECT_EQ(csv.status, 0) << csv.err;
+  EXPECT_TRUE(csv.out.starts_with("feature,runs,seconds,")) << csv.out;
+  EXPECT_EQ(csv.out.find("inf"), std::string::npos) << csv.out;
+}
+
+// What is not used costs nothing to take out.
+TEST_F(Measure, AStillSceneHasNoMotionToTakeOut) {
+  const json report = measured({smoke(), "--features", "--seeds", "2"});
+  ASSERT_EQ(report["feature_costs"].size(), 3u) << report.dump();
+  EXPECT_TRUE(report["feature_costs"][1]["without"].get<std::string>().starts_with("medium"));
+  EXPECT_EQ(report["feature_costs"][2]["without"], "light environment");
 }
 
 }  // namespace UNNAMED

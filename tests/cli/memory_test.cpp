@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/run_program.h"
 
 namespace tyndall::test {
@@ -70,6 +72,20 @@ TEST_F(Memory, IsNotTakenForMillionsOfWords) {
     const Outcome outcome = tyndall_within(700, "check " + file("a.tyn", text));
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find(message), std::string::npos) << word << outcome.err.substr(0, 1000);
+  }
+}
+
+// What writes pictures is small; what reads all kinds of them is not, and stays away.
+TEST_F(Memory, ASmallPictureTakesLittle) {
+  if (reserves_all_addresses) GTEST_SKIP() << "the sanitizer's own memory is beyond any limit";
+  const std::string scene = file("scene.tyn", small_scene());
+  for (const char* name : {"out.exr", "out.png"}) {
+    const Outcome outcome = tyndall({"render", scene, "-o", path(name), "--resolution", "64x64", "--samples",
+                                     "1", "--stats", path("stats.json"), "--quiet"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto statistics = nlohmann::json::parse(read_file(path("stats.json")));
+    EXPECT_LT(statistics["peak_memory_bytes"], 60e6) << name;
+    EXPECT_GT(statistics["peak_memory_bytes"], 5e6) << name;
   }
 }
 

@@ -42,7 +42,8 @@ std::string filled(std::string_view form, Number&& number) {
 // A command in which the option stands, with what it needs beside.
 std::vector<std::string> command_with(const std::string& option, const std::string& value,
                                       const std::string& scene, const std::string& picture) {
-  if (option == "--max" || option == "--significance" || option == "--pixels-per-degree")
+  if (option == "--significance") return {"compare", picture, picture + ".other.exr", option, value};
+  if (option == "--max" || option == "--pixels-per-degree")
     return {"compare", picture, picture, option, value};
   if (option == "--white-balance" || option == "--bloom")
     return {"develop", picture, option, value, "-o", picture + ".developed.exr"};
@@ -103,6 +104,10 @@ TEST_F(Numbers, OthersAreDecimalAndFinite) {
   for (const tools::RealOption& option : tools::real_options()) {
     if (option.name == "--significance") {
       ASSERT_EQ(render(), 0) << "the options before it took the picture";
+      // The same that does not tell its seed.
+      const image::ReadResult read = image::read(path("a.exr"));
+      ASSERT_TRUE(read.image) << read.error;
+      ASSERT_EQ(image::write(path("a.exr.other.exr"), *read.image, {}), "");
     }
     const std::string name(option.name), before = name == "--slice" ? "z=" : "";
     const auto refuse = [&](const std::string& value) {

@@ -66,6 +66,35 @@ void check_light_at_camera(Run& run) {
   }
 }
 
+// Of the shapes of lights [m²]; others have theirs by their triangles.
+template <class S>
+std::optional<double> area_of(const S& shape) {
+  if constexpr (std::is_same_v<S, scene::Quad>)
+    return 4 * length(cross(shape.u, shape.v));
+  else if constexpr (scene::is_one_of<S, scene::LightShapes>)
+    return shape.area();
+  else
+    return std::nullopt;
+}
+
+// What has a power and hardly an area: its radiance would be no number.
+void check_lights_too_small(Run& run) {
+  constexpr double most = 1e30;
+  for (const scene::LightInstance& instance : run.scene.lights) {
+    const auto* light = std::get_if<scene::AreaLight>(&instance.light);
+    if (light == nullptr || !light->power) continue;
+    const auto area = std::visit([](const auto& shape) { return area_of(shape); }, light->shape);
+    const double power = max_component(*light->power);
+    if (!area || power <= most * pi * *area) continue;
+    run.diagnostics.error(
+        instance.definition,
+        fmt::format("a light of {:.3g} W with an area of {:.3g} m² is brighter than {:g} W/m²/sr, the most "
+                    "that a light may be",
+                    power, *area, most),
+        "make it larger; what is as small as that is a `light point`");
+  }
+}
+
 // A ray that glass has bent cannot be aimed at a point: behind it such lights give nothing.
 void check_lights_behind_glass(Run& run) {
   const scene::Scene& s = run.scene;
@@ -103,6 +132,7 @@ void check_scene(Run& run) {
   check_camera(run);
   check_light(run);
   check_light_at_camera(run);
+  check_lights_too_small(run);
   if (run.diagnostics.has_errors()) return;
   scene::RenderSettings settings = run.scene.settings;
   if (run.options.amend_settings) run.options.amend_settings(settings);

@@ -71,8 +71,8 @@ std::string pictures_of(const MeasureReport& report, const image::View& view, co
 
 }  // namespace
 
-MeasureReport full_report(const ReportRequest& request, const scene::Scene& scene,
-                          const scene::RenderSettings& settings, const Measuring& measuring) {
+MeasureReport empty_report(const ReportRequest& request, const scene::Scene& scene,
+                           const scene::RenderSettings& settings) {
   MeasureReport report;
   report.scene = request.scene;
   report.width = settings.resolution.width;
@@ -80,21 +80,28 @@ MeasureReport full_report(const ReportRequest& request, const scene::Scene& scen
   report.frame = scene.frame;
   report.threads = request.threads > 0 ? request.threads : hardware_threads();
   report.seeds = request.seeds;
+  report.features = features_of(scene);
+  return report;
+}
+
+MeasureReport full_report(const ReportRequest& request, const scene::Scene& scene,
+                          const scene::RenderSettings& settings, const Measuring& measuring) {
+  MeasureReport report = empty_report(request, scene, settings);
   report.complete = measuring.is_complete();
   report.rows = measuring.rows();
   report.reference = measuring.reference_facts();
   report.reference.file = request.reference;
   report.advice = advice_of(report.rows);
-  report.features = features_of(scene);
   add_flip(report, measuring);
   return report;
 }
 
 std::string write_page(const std::string& path, const MeasureReport& report, const scene::Scene& scene,
-                       const Measuring& measuring) {
+                       const Measuring* measuring) {
   PagePictures pictures;
-  if (std::string problem = pictures_of(report, view_of(scene), measuring, pictures); !problem.empty())
-    return problem;
+  if (measuring != nullptr)
+    if (std::string problem = pictures_of(report, view_of(scene), *measuring, pictures); !problem.empty())
+      return problem;
   const std::string page = page_of(report, pictures);
   return image::write_file_whole(path, std::as_bytes(std::span(page)));
 }

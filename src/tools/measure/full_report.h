@@ -14,11 +14,15 @@ struct ReportRequest {
   int threads = 0, seeds = 0;
 };
 
+// Of the scene and how it is measured, without anything that was.
+MeasureReport empty_report(const ReportRequest& request, const scene::Scene& scene,
+                           const scene::RenderSettings& settings);
 MeasureReport full_report(const ReportRequest& request, const scene::Scene& scene,
                           const scene::RenderSettings& settings, const Measuring& measuring);
 
-// Writes the page. Gives an error message, or an empty string.
+// Writes the page, with the pictures of what was measured of settings. Gives an error message, or an empty
+// string.
 std::string write_page(const std::string& path, const MeasureReport& report, const scene::Scene& scene,
-                       const Measuring& measuring);
+                       const Measuring* measuring);
 
 }  // namespace tyndall::tools

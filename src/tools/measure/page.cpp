@@ -140,20 +140,11 @@ std::string json_html(const MeasureReport& report) {
   return "<script type=\"application/json\" id=\"measurements\">\n" + text + "\n</script>\n";
 }
 
-}  // namespace
-
-std::string page_of(const MeasureReport& report, const PagePictures& pictures) {
-  const std::string name = escaped_text(std::filesystem::path(report.scene).filename().string());
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}: speed and "
-      "accuracy</title>\n"
-      "<style>{1}</style></head><body>\n<h1>{0}: speed and accuracy</h1>\n"
-      "<p>Frame {2}, {3} \u00d7 {4} pixels, {5} threads, Tyndall {6}. {7}</p>\n<p id=\"reference\">{8}</p>\n",
-      name, style, report.frame, report.width, report.height, report.threads, TYNDALL_VERSION,
-      report.complete ? "All was measured that was asked for."
-                      : "Not all was measured that was asked for: the same "
-                        "command goes on from here.",
-      escaped_text(reference_text(report.reference)));
+// What was measured of the settings.
+std::string settings_html(const MeasureReport& report, const PagePictures& pictures) {
+  if (report.rows.empty()) return {};
+  std::string html =
+      fmt::format("<p id=\"reference\">{}</p>\n", escaped_text(reference_text(report.reference)));
   html += "<h2>Recommended settings</h2>\n<div id=\"advice\">\n";
   for (const Advice& advice : report.advice) html += advice_html(advice);
   html += "</div>\n<h2>Plots</h2>\n<div class=\"plots\">\n";
@@ -162,7 +153,24 @@ std::string page_of(const MeasureReport& report, const PagePictures& pictures) {
       "</div>\n<h2>Numbers</h2>\n<p>The error is the root of the relMSE, and its square the sum of the "
       "squares of bias "
       "and noise. Intervals hold the truth in 95 of 100 cases.</p>\n";
-  html += table_html(report) + pictures_html(pictures) + features_html(report) + json_html(report);
+  return html + table_html(report) + pictures_html(pictures);
+}
+
+}  // namespace
+
+std::string page_of(const MeasureReport& report, const PagePictures& pictures) {
+  const std::string name = escaped_text(std::filesystem::path(report.scene).filename().string());
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}: speed and "
+      "accuracy</title>\n"
+      "<style>{1}</style></head><body>\n<h1>{0}: speed and accuracy</h1>\n"
+      "<p>Frame {2}, {3} \u00d7 {4} pixels, {5} threads, Tyndall {6}. {7}</p>\n",
+      name, style, report.frame, report.width, report.height, report.threads, TYNDALL_VERSION,
+      report.complete ? "All was measured that was asked for."
+                      : "Not all was measured that was asked for: the same "
+                        "command goes on from here.");
+  html += settings_html(report, pictures) + html_of(report.feature_costs) + features_html(report) +
+          json_html(report);
   return html + "</body></html>\n";
 }
 

@@ -96,17 +96,19 @@ nlohmann::json to_json(const MeasureReport& report) {
   for (const SettingRow& row : report.rows) rows.push_back(json_of(row));
   for (const Advice& one : report.advice) advice.push_back(json_of(one));
   for (const auto& [name, used] : report.features) features[name] = used;
-  return {{"version", TYNDALL_VERSION},
-          {"scene", report.scene},
-          {"frame", report.frame},
-          {"resolution", {report.width, report.height}},
-          {"threads", report.threads},
-          {"seeds", report.seeds},
-          {"complete", report.complete},
-          {"reference", json_of(report.reference)},
-          {"settings", rows},
-          {"advice", advice},
-          {"features", features}};
+  nlohmann::json json{{"version", TYNDALL_VERSION},
+                      {"scene", report.scene},
+                      {"frame", report.frame},
+                      {"resolution", {report.width, report.height}},
+                      {"threads", report.threads},
+                      {"seeds", report.seeds},
+                      {"complete", report.complete},
+                      {"reference", json_of(report.reference)},
+                      {"settings", rows},
+                      {"advice", advice},
+                      {"features", features}};
+  if (!report.feature_costs.rows.empty()) json["feature_costs"] = to_json(report.feature_costs);
+  return json;
 }
 
 }  // namespace tyndall::tools

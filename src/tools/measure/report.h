@@ -1,4 +1,4 @@
-// What was measured of all settings, and how it is told: as a table, as CSV and as JSON.
+// What was measured of all settings and features, and how it is told: as a table, as CSV and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,6 +9,7 @@
 
 #include "scene/render_settings.h"
 #include "tools/measure/accuracy.h"
+#include "tools/measure/feature_costs.h"
 #include "tools/measure/render_run.h"
 
 namespace tyndall::tools {
@@ -61,6 +62,7 @@ struct MeasureReport {
   std::vector<SettingRow> rows;
   std::vector<Advice> advice;
   std::vector<std::pair<std::string, bool>> features;
+  FeatureCosts feature_costs{};  // where they were asked for
 };
 
 // Why no setting is advised.

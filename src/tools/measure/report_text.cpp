@@ -2,16 +2,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <string_view>
-
 #include "tools/measure/percent.h"
 #include "tools/measure/report.h"
+#include "tools/text_table.h"
 
 namespace tyndall::tools {
 namespace {
 
-using Cells = std::vector<std::string>;
+using Cells = TextRow;
 
 Cells head_cells() {
   return {"setting", "runs",   "time s", "CPU s",      "error %", "bias %",
@@ -36,27 +34,6 @@ Cells cells_of(const SettingRow& row) {
   return cells;
 }
 
-// As wide as it looks, for the signs that are used here.
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
-
-std::string lines_of(const std::vector<Cells>& table) {
-  std::vector<std::size_t> widths(table[0].size());
-  for (const Cells& cells : table)
-    for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], width_of(cells[i]));
-  std::string text;
-  for (const Cells& cells : table) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::string space(widths[i] - width_of(cells[i]), ' ');
-      text += i == 0 ? cells[i] + space : "  " + space + cells[i];
-    }
-    text += "\n";
-  }
-  return text;
-}
-
 std::string advice_text(const Advice& advice) {
   if (advice.setting.empty())
     return fmt::format("for an error of {:g} %: {}\n", 100 * advice.error, why_not_reached(advice));
@@ -68,16 +45,8 @@ std::string advice_text(const Advice& advice) {
   return text;
 }
 
-// A field of RFC 4180.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 void add_estimate(std::string& line, const Estimate& estimate) {
-  line += fmt::format(",{},{},{}", estimate.value, estimate.low, estimate.high);
+  for (const double number : {estimate.value, estimate.low, estimate.high}) line += "," + csv_number(number);
 }
 
 }  // namespace
@@ -101,14 +70,17 @@ std::string reference_text(const ReferenceFacts& reference) {
 }
 
 std::string table_of(const MeasureReport& report) {
+  const std::string costs = report.feature_costs.rows.empty() ? "" : table_of(report.feature_costs);
+  if (report.rows.empty()) return costs;
   std::vector<Cells> table{head_cells()};
   for (const SettingRow& row : report.rows) table.push_back(cells_of(row));
-  std::string text = lines_of(table) + reference_text(report.reference);
+  std::string text = text_table(table) + reference_text(report.reference);
   for (const Advice& advice : report.advice) text += advice_text(advice);
-  return text;
+  return costs.empty() ? text : text + "\n" + costs;
 }
 
 std::string csv_of(const MeasureReport& report) {
+  if (report.rows.empty()) return csv_of(report.feature_costs);
   std::string text = "setting";
   if (!report.rows.empty())
     for (const auto& [name, value] : report.rows[0].swept) text += "," + name;
@@ -130,9 +102,9 @@ std::string csv_of(const MeasureReport& report) {
       line += std::string(3 * 7, ',');
     }
     line += ",";
-    if (const auto efficiency = efficiency_of(row)) line += fmt::format("{}", *efficiency);
+    if (const auto efficiency = efficiency_of(row)) line += csv_number(*efficiency);
     line += ",";
-    if (row.flip) line += fmt::format("{}", *row.flip);
+    if (row.flip) line += csv_number(*row.flip);
     text += line + "\n";
   }
   return text;

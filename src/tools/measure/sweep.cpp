@@ -96,6 +96,11 @@ Sweep read_sweep(const std::string& text) {
   if (const std::string problem = name_problem({names.begin(), names.end()}, sweep.name); !problem.empty())
     complain(problem);
   if (equals != std::string::npos) sweep.values = values_in(std::string_view(text).substr(equals + 1));
+  for (std::size_t i = 0; i < sweep.values.size(); ++i)
+    if (std::find(sweep.values.begin(), sweep.values.begin() + static_cast<std::ptrdiff_t>(i),
+                  sweep.values[i]) != sweep.values.begin() + static_cast<std::ptrdiff_t>(i))
+      complain(fmt::format("has {}={} twice: give each value once, --seeds says how often it is rendered",
+                           sweep.name, sweep.values[i]));
   if (sweep.values.empty() || std::find(sweep.values.begin(), sweep.values.end(), "") != sweep.values.end())
     complain(
         fmt::format("wants NAME=VALUE,VALUE,… with a value before and after each comma, for instance "
