@@ -229,13 +229,15 @@ std::string write(const std::string& path, const Image& image, const Metadata& m
   if (*format == Format::exr) tell(told, view);
   std::vector<unsigned char> bytes;
   const std::string problem = *format == Format::exr ? encode(image, told, *format, bytes)
-                                                     : encode(develop(image, view), told, *format, bytes);
+                              : *format == Format::tiff
+                                  ? encode(develop(image, view), told, *format, bytes)
+                                  : encode(develop_in_8_bits(image, view), told, *format, bytes);
   if (!problem.empty()) return fmt::format("cannot write '{}': {}", path, problem);
   return write_file_whole(path, std::as_bytes(std::span(bytes)));
 }
 
 std::string encode_png(const Image& image, const View& view, std::vector<unsigned char>& bytes) {
-  return encode(develop(image, view), {}, Format::png, bytes);
+  return encode(develop_in_8_bits(image, view), {}, Format::png, bytes);
 }
 
 std::string retell(const std::string& path, const Metadata& metadata, const View& view) {
@@ -255,7 +257,7 @@ std::string retell(const std::string& path, const Metadata& metadata, const View
 }
 
 std::vector<std::uint8_t> display_rgb(const Image& image, const View& view) {
-  const Image shown = develop(image, view);
+  const Image shown = develop_in_8_bits(image, view);
   const ColorChannels channels = color_channels(shown.channels);
   std::vector<std::uint8_t> bytes;
   bytes.reserve(shown.pixels.size() / shown.channels.size() * 3);

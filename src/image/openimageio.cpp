@@ -30,8 +30,6 @@ OIIO::ImageSpec spec_of(const Image& image, const Metadata& metadata, Format for
   // OpenImageIO would write the time of day: the same picture is to be the same bytes.
   spec.attribute("DateTime", "");
   spec.attribute("oiio:ColorSpace", "sRGB");
-  // Of half a step of 8 bits at most, the same for the same picture: slow gradients of fog show no bands.
-  if (spec.format == OIIO::TypeDesc::UINT8) spec.attribute("oiio:dither", 1);
   if (format == Format::jpeg) {
     spec.attribute("compression", "jpeg:95");
     spec.attribute("jpeg:subsampling", "4:4:4");

@@ -73,7 +73,7 @@ TEST(ClosedShapes, AbsorbAsTheirLengthsInside) {
 }
 
 // White media and clear glass in a white room cannot be seen.
-TEST(ClosedShapes, AreInvisibleInAWhiteRoom) {
+TEST(ClosedShapesSlow, AreInvisibleInAWhiteRoom) {
   support::MediumColors white;
   white.sigma_t = Rgb(3);
   scene::ConstantSurface glass;

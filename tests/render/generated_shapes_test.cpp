@@ -59,7 +59,7 @@ TEST(GeneratedShapes, AbsorbAsTheirLengthsInside) {
 }
 
 // White media and clear glass in a white room cannot be seen.
-TEST(GeneratedShapes, AreInvisibleInAWhiteRoom) {
+TEST(GeneratedShapesSlow, AreInvisibleInAWhiteRoom) {
   support::MediumColors white;
   white.sigma_t = Rgb(3);
   scene::ConstantSurface glass;

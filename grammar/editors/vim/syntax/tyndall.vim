@@ -17,7 +17,7 @@ syntax keyword tyndallOperator and not or
 syntax keyword tyndallDefinition def let material medium object var
 syntax keyword tyndallControl else for if in include place return then
 syntax keyword tyndallInput N P frame n p time uv
-syntax keyword tyndallStatement animation box camera cone curves cylinder disk gltf group light mesh plane quad render sphere torus volume
+syntax keyword tyndallStatement animation box camera cone curves cylinder difference disk gltf group heightfield intersection lathe light mesh plane prism quad render sphere sweep text torus union volume
 syntax match tyndallBuiltin /\v<(abs|acos|append|asin|atan|atan2|blackbody|bounds|ceil|cells|checker|clamp|cos|cross|curl|direction|distance|dot|draine|droplets|exp|fbm|fbm01|floor|fournier_forand|fract|grid|hg|hsv|image|isotropic|keys|length|log|look_at|luminance|matrix|max|min|mix|mod|noise|noise01|normalize|pow|print|random|rayleigh|reflect|remap|ridged|ridged01|rotate|rotate_x|rotate_y|rotate_z|round|saturate|scale|sd_box|sd_capsule|sd_cone|sd_cylinder|sd_ellipsoid|sd_plane|sd_sphere|sd_torus|sign|sin|sky|smooth_max|smooth_subtract|smooth_union|smoothstep|sort|sqrt|step|sum|tan|translate|turbulence|turbulence01|vnoise|warp|worley)>\ze\s*\(/
 " generated end
 
