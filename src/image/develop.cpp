@@ -40,12 +40,9 @@ Image whole_image(const Image& image) {
 }
 
 // Interleaved gradient noise, in [0, 1), of which any few pixels side by side have values that are evenly
-// apart (Jimenez 2014, "Next generation post processing in Call of Duty: Advanced Warfare"). Channels take it
-// from places apart.
-double gradient_noise(int x, int y, int channel) {
-  constexpr double apart = 5.588238;
-  const double at = 0.06711056 * (x + apart * channel) + 0.00583715 * (y + apart * channel);
-  const double turns = 52.9829189 * (at - std::floor(at));
+// apart (Jimenez 2014, "Next generation post processing in Call of Duty: Advanced Warfare").
+double gradient_noise(int x, int y) {
+  const double at = 0.06711056 * x + 0.00583715 * y, turns = 52.9829189 * (at - std::floor(at));
   return turns - std::floor(turns);
 }
 
@@ -91,18 +88,21 @@ Image develop(const Image& image, const View& view) {
 
 Image develop_in_8_bits(const Image& image, const View& view) {
   Image shown = develop(image, view);
-  const auto channels = static_cast<int>(shown.channels.size());
+  const bool is_dithered = view.tonemap != Tonemap::none;
+  const std::size_t channels = shown.channels.size();
   std::size_t i = 0;
   for (int y = 0; y < shown.height; ++y)
-    for (int x = 0; x < shown.width; ++x)
-      for (int c = 0; c < channels; ++c, ++i) {
+    for (int x = 0; x < shown.width; ++x) {
+      // The same for all channels: grey stays grey.
+      const double noise = gradient_noise(x + view.first_x, y + view.first_y);
+      for (std::size_t c = 0; c < channels; ++c, ++i) {
         const double step = 255 * std::clamp(double{shown.pixels[i]}, 0.0, 1.0), whole = std::round(step);
         // What is a whole step but for rounding stays one.
         constexpr double rounding = 1e-3;
-        const double chosen =
-            std::abs(step - whole) < rounding ? whole : std::floor(step + gradient_noise(x, y, c));
-        shown.pixels[i] = static_cast<float>(chosen / 255);
+        const bool nearest = !is_dithered || std::abs(step - whole) < rounding;
+        shown.pixels[i] = static_cast<float>((nearest ? whole : std::floor(step + noise)) / 255);
       }
+    }
   return shown;
 }
 

@@ -21,8 +21,9 @@ Image expose(const Image& image, const View& view);
 // channels beside colours each by itself. What is negative or NaN is 0.
 Image develop(const Image& image, const View& view);
 
-// The same in whole 255ths. A value between two of them becomes either, so that pixels side by side have it
-// in the mean: slow gradients of fog show no bands.
+// The same in whole 255ths. Under a film curve a value between two of them becomes either, so that pixels
+// side by side have it in the mean: slow gradients of fog show no bands. `tonemap: none` gives the nearest
+// number.
 Image develop_in_8_bits(const Image& image, const View& view);
 
 }  // namespace tyndall::image

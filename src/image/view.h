@@ -38,8 +38,9 @@ std::optional<Tonemap> read_tonemap(std::string_view text);
 struct View {
   Exposure exposure{};
   Tonemap tonemap = Tonemap::film;
-  std::optional<Rgb> white{};  // linear colour of the light that is to look white
-  double bloom = 0;            // share of the light that is spread around where it fell, in [0, 1]
+  std::optional<Rgb> white{};    // linear colour of the light that is to look white
+  double bloom = 0;              // share of the light that is spread around where it fell, in [0, 1]
+  int first_x = 0, first_y = 0;  // where the first pixel is in the picture that this one is cut from
 
   // The numbers themselves, clamped to what a display has.
   static View of_numbers() { return {.tonemap = Tonemap::none}; }

@@ -210,8 +210,13 @@ ExitStatus run_develop(const DevelopArguments& arguments) {
     print_message(fmt::format("{}: metered exposure {:.2f}\n", arguments.output, stops));
   view.exposure = {stops, false};
   Image exposed = image::expose(*light, view);
-  if (arguments.crop) exposed = cropped(exposed, *arguments.crop);
-  problem = image::write(arguments.output, exposed, metadata, {.tonemap = view.tonemap});
+  image::View shown{.tonemap = view.tonemap};
+  if (const auto& crop = arguments.crop) {
+    exposed = cropped(exposed, *crop);
+    shown.first_x = crop->x0;
+    shown.first_y = crop->y0;
+  }
+  problem = image::write(arguments.output, exposed, metadata, shown);
   return problem.empty() ? ExitStatus::done : no_picture(problem);
 }
 

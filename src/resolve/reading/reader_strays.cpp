@@ -86,10 +86,20 @@ void Reader::report_other(const syntax::Item& item) {
 }
 
 // The value of an unknown parameter is not wanted, but what is wrong in it is; a word that it begins with may
-// be one that the parameter meant knows: `stepp: auto(1%)`.
+// be one that the parameter meant knows: `stepp: auto(1%)`; and so in a shape: `inn: text { align: center }`.
 void Reader::check_names_of_unknown(syntax::ExprId value) {
   const syntax::SyntaxTree& tree = *site_.tree;
   if (std::holds_alternative<syntax::NameExpr>(tree[value].node)) return;
+  if (const auto* thing = std::get_if<syntax::ThingExpr>(&tree[value].node)) {
+    const auto items = tree.list_of_items(tree[thing->block].items);
+    const auto parameter = [&](syntax::ItemId id) {
+      return std::get_if<syntax::ParameterItem>(&tree[id].node);
+    };
+    if (std::all_of(items.begin(), items.end(), parameter)) {
+      for (const syntax::ItemId id : items) check_names_of_unknown(parameter(id)->value);
+      return;
+    }
+  }
   const auto* call = std::get_if<syntax::CallExpr>(&tree[value].node);
   if (call == nullptr || !std::holds_alternative<syntax::NameExpr>(tree[call->callee].node))
     return void(evaluator_.check_names(tree, value, *site_.scope));
