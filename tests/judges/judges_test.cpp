@@ -92,8 +92,8 @@ TEST_F(Judges, FindTheFixturesOfOurTestsSound) {
       "GltfNodes.*:GltfAnimations.*:GltfSkins.*:GltfMorphs.*:GltfBlur.*:GltfLines.*:RenderedGltf.*:"
       "GltfMaterials.*"
       "-GltfMaterials.TellOfPicturesThatCannotBeRead:GltfMaterials.TellWhatIsNotReadOnceByName";
-  const Output ran = output_of(
-      fmt::format("TMPDIR='{}' '{}' --gtest_filter='{}'", folder.string(), TYNDALL_TEST_IMPORT, filter));
+  const Output ran = output_of(fmt::format("TMPDIR='{}' TYNDALL_KEEP_TEST_FILES=1 '{}' --gtest_filter='{}'",
+                                           folder.string(), TYNDALL_TEST_IMPORT, filter));
   EXPECT_TRUE(ran.good) << ran.text;
   const auto files = gltfs_below(folder);
   ASSERT_GE(files.size(), 20u);

@@ -4,13 +4,15 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 
 namespace tyndall {
 
-// A folder that no other process has, gone with the object.
+// A folder that no other process has, gone with the object, unless the environment has
+// TYNDALL_KEEP_TEST_FILES.
 class ProcessFolder {
  public:
   ProcessFolder() {
@@ -20,7 +22,7 @@ class ProcessFolder {
   }
   ~ProcessFolder() {
     std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    if (std::getenv("TYNDALL_KEEP_TEST_FILES") == nullptr) std::filesystem::remove_all(path_, ignored);
   }
   ProcessFolder(const ProcessFolder&) = delete;
   ProcessFolder& operator=(const ProcessFolder&) = delete;
