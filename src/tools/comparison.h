@@ -32,7 +32,7 @@ struct ComparisonResult {
   image::Comparison main;
   double psnr = 0;  // [dB]; infinite for equal pictures
   std::optional<double> flip;
-  std::string_view flip_kind;
+  std::string flip_kind;
   double outliers = 0, reference_outliers = 0;                    // shares of pixels
   std::optional<image::ZTest> z_test;                             // where there are variances
   std::vector<std::pair<std::string, image::Comparison>> layers;  // the others, by name
